@@ -1,0 +1,87 @@
+//! From the sources to `uam_controller.fmu`, `uam_plant.fmu` and `uam.ssp`.
+
+use std::path::{Path, PathBuf};
+
+use uam::Structure;
+
+use crate::compile::compile;
+use crate::description::model_description;
+use crate::error::Result;
+use crate::package::fmu;
+use crate::platform::Platform;
+use crate::ssp::{Component, ssp};
+use crate::units::Unit;
+use crate::{files, workspace};
+
+const SSP_NAME: &str = "uam.ssp";
+
+/// What to build, and where to put it.
+#[derive(Debug, Clone)]
+pub struct BuildOptions {
+    /// Links and counterweight.
+    pub structure: Structure,
+    /// Folder for the files; created if it is missing.
+    pub folder: PathBuf,
+}
+
+/// The finished files.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Built {
+    /// The controller's FMU.
+    pub controller: PathBuf,
+    /// The plant's FMU.
+    pub plant: PathBuf,
+    /// Both, connected.
+    pub ssp: PathBuf,
+}
+
+/// Compiles both units for this machine and writes the two FMUs and the SSP.
+///
+/// `progress` is told, line by line, what is being done.
+///
+/// # Errors
+/// If the sources are not found, do not compile, or a file cannot be written.
+pub fn build(options: &BuildOptions, progress: &dyn Fn(&str)) -> Result<Built> {
+    let platform = Platform::of_this_machine()?;
+    let controller = Unit::controller(options.structure);
+    let plant = Unit::plant(options.structure);
+    let packages = [controller.interface.identifier, plant.interface.identifier];
+    let compiled = compile(&workspace::root()?, &packages, progress)?;
+
+    let pack = |unit: &Unit| {
+        let library = files::read(&compiled.library(unit.interface.identifier, platform)?)?;
+        fmu(unit, platform, library)?.to_bytes(&unit.interface.file_name())
+    };
+    let controller_fmu = pack(&controller)?;
+    let plant_fmu = pack(&plant)?;
+    // The plant stands first: importers that step one component after the other must begin with it.
+    let system = ssp(&[
+        Component { name: "plant", interface: &plant.interface, fmu: &plant_fmu },
+        Component { name: "controller", interface: &controller.interface, fmu: &controller_fmu },
+    ])?;
+
+    files::create_folder(&options.folder)?;
+    let write = |name: &str, content: &[u8]| {
+        let path = options.folder.join(name);
+        progress(&format!("Writing {}", path.display()));
+        files::write(&path, content).map(|()| path)
+    };
+    Ok(Built {
+        controller: write(&controller.interface.file_name(), &controller_fmu)?,
+        plant: write(&plant.interface.file_name(), &plant_fmu)?,
+        ssp: write(SSP_NAME, &system.to_bytes(SSP_NAME)?)?,
+    })
+}
+
+/// Writes the model descriptions of the default structure, `uam_controller.xml` and `uam_plant.xml`.
+///
+/// # Errors
+/// If a file cannot be written.
+pub fn write_descriptions(folder: &Path) -> Result<()> {
+    files::create_folder(folder)?;
+    for unit in [Unit::controller(Structure::DEFAULT), Unit::plant(Structure::DEFAULT)] {
+        let path = folder.join(format!("{}.xml", unit.interface.identifier));
+        files::write(&path, model_description(&unit.interface)?.as_bytes())?;
+    }
+    Ok(())
+}

@@ -1,0 +1,99 @@
+//! What the commands do.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result};
+use fmu_build::run::Run;
+use fmu_build::{BuildOptions, Built, workspace};
+use indicatif::{ProgressBar, ProgressStyle};
+use uam::{Structure, scenarios};
+
+use crate::cli::{Arguments, Command};
+
+mod pick_up;
+mod simulate;
+mod thesis;
+
+/// Does what the command line asks for.
+pub fn execute(arguments: &Arguments) -> Result<()> {
+    let out = &arguments.out;
+    match &arguments.command {
+        None => pick_up::execute(out),
+        Some(Command::Build(vehicle)) => {
+            let built = build(Structure::new(vehicle.links, vehicle.counterweight)?, out)?;
+            wrote(&[built.controller, built.plant, built.ssp]);
+            Ok(())
+        }
+        Some(Command::Simulate(simulation)) => simulate::execute(simulation, out),
+        Some(Command::Thesis) => thesis::execute(out),
+        Some(Command::List) => {
+            for scenario in scenarios::catalogue() {
+                println!("{:<24} {}", scenario.id, scenario.title);
+            }
+            Ok(())
+        }
+        Some(Command::Describe) => {
+            let folder = workspace::root()?.join("modelDescription");
+            fmu_build::write_descriptions(&folder)?;
+            wrote(&[folder.join("uam_controller.xml"), folder.join("uam_plant.xml")]);
+            Ok(())
+        }
+    }
+}
+
+/// Builds the FMUs of a structure into a folder.
+fn build(structure: Structure, folder: &Path) -> Result<Built> {
+    let spinner = ProgressBar::new_spinner();
+    spinner.enable_steady_tick(std::time::Duration::from_millis(120));
+    let options = BuildOptions { structure, folder: folder.to_owned() };
+    let built = fmu_build::build(&options, &|line| spinner.set_message(line.to_owned()));
+    spinner.finish_and_clear();
+    built.with_context(|| format!("cannot build the FMUs for {structure}"))
+}
+
+/// Where the FMUs of a structure go: all have the same file names, so other structures than the default get a
+/// folder of their own.
+fn folder(out: &Path, structure: Structure) -> PathBuf {
+    if structure == Structure::DEFAULT { out.to_owned() } else { out.join(structure.to_string().replace(' ', "-")) }
+}
+
+/// Says where files are.
+fn wrote(files: &[PathBuf]) {
+    println!("Written:");
+    for file in files {
+        println!("  {}", file.display());
+    }
+}
+
+/// How fast runs were.
+fn speed(runs: &[&Run]) -> String {
+    let simulated: f64 = runs.iter().map(|run| run.simulated()).sum();
+    let elapsed: f64 = runs.iter().map(|run| run.elapsed.as_secs_f64()).sum();
+    format!("{simulated:.0} s simulated in {elapsed:.2} s: {:.0} times faster than real time.", simulated / elapsed)
+}
+
+/// Counts communication points on the terminal. Drawing costs more than a step: only now and then.
+struct Progress {
+    bar: ProgressBar,
+    points: std::cell::Cell<u64>,
+}
+
+impl Progress {
+    const STRIDE: u64 = 500;
+
+    fn new(points: u64, what: &'static str) -> Result<Self> {
+        let style = ProgressStyle::with_template("{msg} [{bar:40}] {percent:>3} % in {elapsed}")?.progress_chars("=> ");
+        Ok(Self { bar: ProgressBar::new(points).with_style(style).with_message(what), points: std::cell::Cell::new(0) })
+    }
+
+    fn point(&self) {
+        self.points.set(self.points.get() + 1);
+        if self.points.get().is_multiple_of(Self::STRIDE) {
+            self.bar.inc(Self::STRIDE);
+        }
+    }
+
+    fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
+}

@@ -1,0 +1,60 @@
+//! The main run: builds the default pair and puts it through thesis 4.3 in all variants.
+
+use std::path::Path;
+
+use anyhow::{Context, Result};
+use fmu_build::coupling::Pair;
+use fmu_build::record::{Recording, write_csv};
+use fmu_build::report;
+use fmu_build::run::Run;
+use fmu_build::study::{self, Case, DISCRETIZATIONS};
+use uam::Structure;
+use uam::options::Choice;
+
+use super::{Progress, build, speed, wrote};
+
+/// The csv holds every so many communication points: fine enough to plot, small enough for spreadsheets.
+const CSV_STRIDE: usize = 10;
+
+pub fn execute(out: &Path) -> Result<()> {
+    println!("Building both FMUs for {} ...", Structure::DEFAULT);
+    let built = build(Structure::DEFAULT, out)?;
+    let pair = Pair::open(&built.controller, &built.plant)?;
+
+    let cases = run_all(&pair)?;
+    let runs = || cases.iter().flat_map(|case| &case.runs);
+    println!("\nThe pick-up of thesis 4.3, {} coupled runs of both FMUs\n", runs().count());
+    println!("{}\n", study::table(&cases));
+    for run in runs() {
+        if let Some(complaint) = run.complaint() {
+            println!("{}: {complaint}", run.scenario.id);
+        }
+    }
+    println!("{}\n", speed(&runs().collect::<Vec<_>>()));
+
+    let (csv, page) = (out.join("pick-up.csv"), out.join("report.html"));
+    let exact: Vec<(String, &Recording)> =
+        cases.iter().map(|case| (prefix(case.exact()), &case.exact().recording)).collect();
+    let columns: Vec<(&str, &Recording)> =
+        exact.iter().map(|(prefix, recording)| (prefix.as_str(), *recording)).collect();
+    write_csv(&csv, &columns, CSV_STRIDE).with_context(|| format!("cannot write {}", csv.display()))?;
+    report::pick_up::report(&cases)?.write(&page).with_context(|| format!("cannot write {}", page.display()))?;
+    wrote(&[built.controller, built.plant, built.ssp, csv, page]);
+    Ok(())
+}
+
+fn run_all(pair: &Pair) -> Result<Vec<Case>> {
+    let scenarios = study::pick_up();
+    let points: f64 = scenarios.iter().map(|scenario| scenario.duration / scenario.step).sum();
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "only for the progress bar")]
+    let progress = Progress::new(points as u64 * DISCRETIZATIONS.len() as u64, "Simulating")?;
+    let cases = scenarios.into_iter().map(|scenario| Case::run(pair, scenario, &|| progress.point()));
+    let cases = cases.collect::<Result<_, _>>();
+    progress.finish();
+    Ok(cases?)
+}
+
+fn prefix(run: &Run) -> String {
+    let parameters = &run.scenario.parameters;
+    format!("{}.kd{}.", parameters.ik.resolution.name(), parameters.autopilot.roll.kd)
+}

@@ -1,0 +1,28 @@
+//! An FMU: description, library, documentation, licences and picture in one archive.
+
+use crate::archive::Archive;
+use crate::description::model_description;
+use crate::documentation;
+use crate::error::Result;
+use crate::platform::Platform;
+use crate::units::Unit;
+
+/// Texts of the licences, by name of the file.
+const LICENSES: [(&str, &str); 2] =
+    [("LICENSE-MIT", include_str!("../../LICENSE-MIT")), ("LICENSE-APACHE", include_str!("../../LICENSE-APACHE"))];
+
+/// The FMU of a unit whose library for `platform` has these bytes.
+///
+/// # Errors
+/// If the model description cannot be put together.
+pub fn fmu(unit: &Unit, platform: Platform, library: Vec<u8>) -> Result<Archive> {
+    let mut archive = Archive::default();
+    archive.add("modelDescription.xml", model_description(&unit.interface)?);
+    archive.add_executable(platform.library(unit.interface.identifier), library);
+    archive.add("documentation/index.html", documentation::page(unit));
+    for (name, text) in LICENSES {
+        archive.add(format!("documentation/licenses/{name}"), text);
+    }
+    archive.add("model.png", unit.icon);
+    Ok(archive)
+}

@@ -1,0 +1,128 @@
+//! A page that shows what happened in one or more runs: one HTML file, nothing to be fetched.
+
+use std::path::Path;
+
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+mod arm;
+mod chart;
+mod decimate;
+pub mod figures;
+pub mod pick_up;
+mod pose;
+pub mod single;
+mod style;
+
+pub use figures::{Figure, Topic};
+pub use style::Paint;
+
+use crate::claims::Table;
+use crate::run::Run;
+
+/// A report that cannot be made.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// There is nothing to show.
+    #[error("a report needs at least one run")]
+    Empty,
+    /// The drawing library gave up.
+    #[error("a figure cannot be drawn: {0}")]
+    Drawing(String),
+    /// The file cannot be written.
+    #[error("cannot write the report")]
+    File(#[from] std::io::Error),
+}
+
+/// A run with the name and the colour that it has in all figures.
+#[derive(Debug, Clone, Copy)]
+pub struct Series<'a> {
+    /// Name in legends.
+    pub label: &'a str,
+    /// Colour.
+    pub paint: Paint,
+    /// What came out.
+    pub run: &'a Run,
+}
+
+/// A page.
+#[derive(Debug)]
+pub struct Report {
+    /// Heading.
+    pub title: String,
+    /// What was run.
+    pub introduction: Markup,
+    /// Measured quantities, beside the thesis where it says something.
+    pub table: Table,
+    /// Figures in their order.
+    pub figures: Vec<Figure>,
+}
+
+impl Report {
+    /// The page as text.
+    #[must_use]
+    pub fn html(&self) -> String {
+        let page = html! {
+            (DOCTYPE)
+            html lang="en" {
+                head {
+                    meta charset="utf-8";
+                    meta name="viewport" content="width=device-width, initial-scale=1";
+                    title { (self.title) }
+                    style { (PreEscaped(style::SHEET)) }
+                }
+                body {
+                    main {
+                        h1 { (self.title) }
+                        (self.introduction)
+                        section { h2 { "What came out" } (table(&self.table)) }
+                        @for figure in &self.figures {
+                            section { figure { h2 { (figure.title) } (figure.body) figcaption { (figure.caption) } } }
+                        }
+                    }
+                }
+            }
+        };
+        page.into_string()
+    }
+
+    /// Writes the page.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn write(&self, path: &Path) -> Result<(), Error> {
+        Ok(std::fs::write(path, self.html())?)
+    }
+}
+
+fn table(table: &Table) -> Markup {
+    let thesis = table.agreement().0 > 0;
+    html! {
+        div.wide {
+            table {
+                thead {
+                    tr {
+                        th { }
+                        @if thesis { th { "the thesis says" } }
+                        @for column in &table.columns { th { (column) } }
+                    }
+                }
+                @for section in &table.sections {
+                    tbody {
+                        tr { th colspan=(table.columns.len() + 1 + usize::from(thesis)) { (section.title) } }
+                        @for row in &section.rows {
+                            tr {
+                                td { (row.quantity) }
+                                @if thesis { td { (row.thesis.unwrap_or_default()) } }
+                                @for cell in &row.cells {
+                                    td.yes[cell.agrees == Some(true)].no[cell.agrees == Some(false)] {
+                                        (cell.text) " " i { (cell.mark()) }
+                                    }
+                                }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}

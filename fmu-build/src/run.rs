@@ -1,0 +1,71 @@
+//! One scenario on a pair of FMUs.
+
+use std::error::Error as _;
+use std::time::{Duration, Instant};
+
+use uam::scenarios::Scenario;
+
+use crate::coupling::{Coupling, Error, Order, Pair, Schedule};
+use crate::record::{Names, Recorder, Recording};
+
+/// What came out of a scenario.
+#[derive(Debug)]
+pub struct Run {
+    /// What was run.
+    pub scenario: Scenario,
+    /// What was recorded, up to the end or to where the run stopped.
+    pub recording: Recording,
+    /// Why the run stopped early, if it did.
+    pub stopped: Option<Error>,
+    /// Time that the coupling took, recording included.
+    pub elapsed: Duration,
+}
+
+impl Run {
+    /// Why the run stopped early, in words.
+    #[must_use]
+    pub fn complaint(&self) -> Option<String> {
+        let stopped = self.stopped.as_ref()?;
+        let reason = stopped.source().map_or_else(String::new, |reason| format!(": {reason}"));
+        Some(format!("{stopped}{reason}"))
+    }
+
+    /// Time that was simulated \[s\].
+    #[must_use]
+    pub fn simulated(&self) -> f64 {
+        match self.recording.times() {
+            [first, .., last] => last - first,
+            _ => 0.0,
+        }
+    }
+}
+
+/// Runs a scenario. `progress` hears of every communication point.
+///
+/// # Errors
+/// If the units cannot be initialized for this scenario. An error during the run is part of the result.
+pub fn run(
+    pair: &Pair,
+    scenario: &Scenario,
+    schedule: &Schedule,
+    order: Order,
+    names: &Names,
+    progress: &dyn Fn(),
+) -> Result<Run, Error> {
+    let mut coupling = Coupling::new(pair)?;
+    coupling.configure(scenario.structure, &scenario.parameters)?;
+    let (controller, plant) = (pair.controller.description(), pair.plant.description());
+    let mut recorder = Recorder::new(names, controller, plant, schedule.steps() + 1)?;
+    let begin = Instant::now();
+    let result = coupling.run(schedule, order, &mut |time, controller, plant| {
+        progress();
+        recorder.record(time, controller, plant)
+    });
+    let elapsed = begin.elapsed();
+    let stopped = match result {
+        Ok(()) => None,
+        Err(stopped @ Error::Step { .. }) => Some(stopped),
+        Err(error) => return Err(error),
+    };
+    Ok(Run { scenario: scenario.clone(), recording: recorder.finish(), stopped, elapsed })
+}

@@ -1,0 +1,73 @@
+//! The parameters of a run as the named values that a unit takes.
+
+use uam::fmi2::Model;
+use uam::variables::{Causality, Kind};
+use uam::{Parameters, Structure};
+
+use crate::fmu::{Error, Instance, Selection, Value};
+
+/// Every parameter of the unit `M` with its value in `parameters`, in the order of the unit's table.
+#[must_use]
+pub fn named_values<M>(structure: Structure, parameters: &Parameters) -> Vec<(String, Value)>
+where
+    M: Model<Structure = Structure>,
+    M::Data: AsMut<Parameters>,
+{
+    let mut data = M::start(structure);
+    data.as_mut().clone_from(parameters);
+    M::table(structure)
+        .variables()
+        .iter()
+        .filter(|variable| variable.causality == Causality::Parameter)
+        .map(|variable| {
+            let value = match variable.kind {
+                Kind::Real { at, .. } => Value::Real(*at(&mut data, variable.index)),
+                Kind::Boolean { at } => Value::Boolean(*at(&mut data, variable.index)),
+                Kind::Enumeration { at } => Value::Integer(at(&mut data, variable.index).number()),
+            };
+            (variable.name.clone(), value)
+        })
+        .collect()
+}
+
+/// Sets variables of an instance by name, all at once.
+///
+/// # Errors
+/// If the unit does not have one of them, it has another type, or the unit does not accept its value.
+pub fn apply(instance: &mut Instance, settings: &[(String, Value)]) -> Result<(), Error> {
+    let selection = Selection::new(instance.description(), settings.iter().map(|(name, _)| name.as_str()))?;
+    let mut values = selection.values();
+    for (index, (name, value)) in settings.iter().enumerate() {
+        if !selection.put(&mut values, index, *value) {
+            return Err(Error::mismatch(instance.description(), name, *value));
+        }
+    }
+    instance.set(&selection, &values)
+}
+
+#[cfg(test)]
+mod tests {
+    use uam::interface::{controller::ControllerUnit, plant::PlantUnit};
+    use uam::parameters::Resolution;
+    use uam::scenarios;
+
+    use super::*;
+
+    #[test]
+    fn values_are_those_of_the_parameters_not_the_start_values() {
+        let structure = Structure::DEFAULT;
+        let mut parameters = scenarios::default_parameters(structure);
+        parameters.uav.mass = 7.5;
+        parameters.ik.resolution = Resolution::MinimumNorm;
+        let value = |values: &[(String, Value)], wanted: &str| {
+            values.iter().find(|(name, _)| name == wanted).map(|(_, value)| *value)
+        };
+        let controller = named_values::<ControllerUnit>(structure, &parameters);
+        let plant = named_values::<PlantUnit>(structure, &parameters);
+        assert_eq!(value(&controller, "uav.mass"), Some(Value::Real(7.5)));
+        assert_eq!(value(&plant, "uav.mass"), Some(Value::Real(7.5)));
+        assert_eq!(value(&controller, "ik.resolution"), Some(Value::Integer(1)));
+        assert_eq!(value(&plant, "ik.resolution"), None);
+        assert_eq!(value(&plant, "base.x"), None);
+    }
+}

@@ -1,0 +1,28 @@
+//! What the documents of an SSP share.
+
+use std::io;
+
+use uam::unit::Unit;
+
+use crate::xml::{self, Xml};
+
+/// Name space of what all documents of the SSP standard share.
+pub const SSC: &str = "http://ssp-standard.org/SSP1/SystemStructureCommon";
+/// Name space of system structures.
+pub const SSD: &str = "http://ssp-standard.org/SSP1/SystemStructureDescription";
+/// Name space of parameter sets.
+pub const SSV: &str = "http://ssp-standard.org/SSP1/SystemStructureParameterValues";
+
+/// Definitions of units, inside the element `name`.
+pub fn write_units(xml: &mut Xml, name: &str, units: &[&Unit]) -> io::Result<()> {
+    xml.create_element(name).write_inner_content(|xml| {
+        for unit in units {
+            xml.create_element("ssc:Unit").with_attribute(("name", unit.name)).write_inner_content(|xml| {
+                xml.create_element("ssc:BaseUnit").with_attributes(xml::base_exponents(unit)).write_empty()?;
+                Ok(())
+            })?;
+        }
+        Ok(())
+    })?;
+    Ok(())
+}

@@ -1,0 +1,60 @@
+//! The parameter set of the system.
+
+use std::io;
+
+use super::{Component, common, shared_parameters};
+use crate::error::Result;
+use crate::interface::{Value, Variable, units_of};
+use crate::metadata;
+use crate::xml::{self, Xml, number};
+
+/// Path of the parameter set inside the SSP.
+pub const SOURCE: &str = "resources/uam.ssv";
+/// The name under which importers that know several sets look for the one to begin with.
+const NAME: &str = "initialValues";
+
+/// The parameters that all components have, with their start values.
+pub fn parameter_set(components: &[Component<'_>; 2]) -> Result<String> {
+    xml::document(SOURCE, |xml| {
+        let attributes = [
+            ("xmlns:ssc", common::SSC),
+            ("xmlns:ssv", common::SSV),
+            ("version", "1.0"),
+            ("name", NAME),
+            ("description", "Vehicle, autopilot and payload: what both units must agree on"),
+            ("generationTool", metadata::GENERATION_TOOL),
+        ];
+        xml::tall_element(xml, "ssv:ParameterSet", attributes).write_inner_content(|xml| {
+            xml.create_element("ssv:Parameters").write_inner_content(|xml| {
+                shared_parameters(components).try_for_each(|parameter| write_parameter(xml, parameter))
+            })?;
+            common::write_units(xml, "ssv:Units", &units_of(shared_parameters(components)))
+        })?;
+        Ok(())
+    })
+}
+
+fn write_parameter(xml: &mut Xml, parameter: &Variable) -> io::Result<()> {
+    let element = xml
+        .create_element("ssv:Parameter")
+        .with_attribute(("name", parameter.name.as_str()))
+        .with_attribute(("description", parameter.description.as_str()));
+    element.write_inner_content(|xml| {
+        match parameter.value {
+            Value::Real { unit, start, .. } => {
+                xml.create_element("ssv:Real")
+                    .with_attribute(("value", number(start)))
+                    .with_attribute(("unit", unit.name))
+                    .write_empty()?;
+            }
+            Value::Boolean { start } => {
+                xml.create_element("ssv:Boolean")
+                    .with_attribute(("value", if start { "true" } else { "false" }))
+                    .write_empty()?;
+            }
+            Value::Enumeration { .. } => {}
+        }
+        Ok(())
+    })?;
+    Ok(())
+}

@@ -1,0 +1,176 @@
+//! `SystemStructure.ssd`: components, their connectors and the connections between them.
+
+use std::io;
+
+use uam::variables::Causality;
+
+use super::{Component, Connection, common, connections, parameters};
+use crate::error::Result;
+use crate::interface::{Value, Variable, units_of};
+use crate::metadata;
+use crate::xml::{self, Xml, number};
+
+/// Name space of OMSimulator's annotations.
+const OMS: &str = "https://raw.githubusercontent.com/OpenModelica/OMSimulator/master/schema/oms.xsd";
+/// Name space of the Open Simulation Platform's annotations.
+const OSP: &str = "http://opensimulationplatform.com/SSP/OSPAnnotations";
+
+/// The system structure.
+pub fn system_structure(components: &[Component<'_>; 2]) -> Result<String> {
+    let connections: Vec<_> = connections(components).collect();
+    let units = units_of(components.iter().flat_map(|component| connectors(component, &connections)).map(|(_, v)| v));
+    xml::document("SystemStructure.ssd", |xml| {
+        let attributes = [
+            ("xmlns:ssc", common::SSC),
+            ("xmlns:ssd", common::SSD),
+            ("xmlns:ssv", common::SSV),
+            ("xmlns:oms", OMS),
+            ("xmlns:osp", OSP),
+            ("version", "1.0"),
+            ("name", "uam"),
+            ("author", metadata::AUTHOR),
+            ("fileversion", metadata::VERSION),
+            ("copyright", metadata::COPYRIGHT),
+            ("license", metadata::LICENSE),
+            ("generationTool", metadata::GENERATION_TOOL),
+        ];
+        xml::tall_element(xml, "ssd:SystemStructureDescription", attributes).write_inner_content(|xml| {
+            write_system(xml, components, &connections)?;
+            common::write_units(xml, "ssd:Units", &units)?;
+            write_default_experiment(xml)
+        })?;
+        Ok(())
+    })
+}
+
+fn write_system(xml: &mut Xml, components: &[Component<'_>; 2], connections: &[Connection<'_>]) -> io::Result<()> {
+    xml.create_element("ssd:System")
+        .with_attribute(("name", "uam"))
+        .with_attribute(("description", "Aerial manipulator: inverse kinematics and plant"))
+        .write_inner_content(|xml| {
+            xml.create_element("ssd:Elements").write_inner_content(|xml| {
+                components.iter().try_for_each(|component| write_component(xml, component, connections))
+            })?;
+            xml.create_element("ssd:Connections").write_inner_content(|xml| {
+                connections.iter().try_for_each(|connection| write_connection(xml, connection))
+            })?;
+            // OMSimulator ends abruptly when it finds a system without a master.
+            write_annotation(xml, "org.openmodelica", |xml| {
+                xml.create_element("oms:Annotations").write_inner_content(|xml| {
+                    xml.create_element("oms:SimulationInformation").write_inner_content(|xml| {
+                        xml.create_element("oms:FixedStepMaster")
+                            .with_attribute(("description", "oms-ma"))
+                            .with_attribute(("stepSize", number(metadata::STEP_SIZE)))
+                            .with_attribute(("absoluteTolerance", "0.0001"))
+                            .with_attribute(("relativeTolerance", "0.0001"))
+                            .write_empty()?;
+                        Ok(())
+                    })?;
+                    Ok(())
+                })?;
+                Ok(())
+            })
+        })?;
+    Ok(())
+}
+
+fn write_component(xml: &mut Xml, component: &Component<'_>, connections: &[Connection<'_>]) -> io::Result<()> {
+    xml.create_element("ssd:Component")
+        .with_attribute(("name", component.name))
+        .with_attribute(("description", component.interface.description))
+        .with_attribute(("type", "application/x-fmu-sharedlibrary"))
+        .with_attribute(("source", component.source().as_str()))
+        .with_attribute(("implementation", "CoSimulation"))
+        .write_inner_content(|xml| {
+            xml.create_element("ssd:Connectors").write_inner_content(|xml| {
+                connectors(component, connections).try_for_each(|(kind, variable)| write_connector(xml, kind, variable))
+            })?;
+            xml.create_element("ssd:ParameterBindings").write_inner_content(|xml| {
+                xml.create_element("ssd:ParameterBinding")
+                    .with_attribute(("source", parameters::SOURCE))
+                    .write_empty()?;
+                Ok(())
+            })?;
+            Ok(())
+        })?;
+    Ok(())
+}
+
+/// The connectors of a component with their kinds.
+///
+/// An input that nothing is connected to is left out and keeps its start value: some importers drive every
+/// input that is listed, connected or not.
+fn connectors<'a>(
+    component: &'a Component<'_>,
+    connections: &'a [Connection<'_>],
+) -> impl Iterator<Item = (&'static str, &'a Variable)> {
+    let is_connected = |name: &str| connections.iter().any(|other| other.to == component.name && other.name == name);
+    component.interface.variables.iter().filter_map(move |variable| {
+        let kind = match (variable.causality, variable.value) {
+            (Causality::Independent, _) | (_, Value::Enumeration { .. }) => None,
+            (Causality::Parameter, _) => Some("parameter"),
+            (Causality::Input, _) => is_connected(&variable.name).then_some("input"),
+            (Causality::Output, _) => Some("output"),
+        };
+        kind.map(|kind| (kind, variable))
+    })
+}
+
+fn write_connector(xml: &mut Xml, kind: &str, variable: &Variable) -> io::Result<()> {
+    xml.create_element("ssd:Connector")
+        .with_attribute(("name", variable.name.as_str()))
+        .with_attribute(("kind", kind))
+        .with_attribute(("description", variable.description.as_str()))
+        .write_inner_content(|xml| {
+            match variable.value {
+                Value::Real { unit, .. } => {
+                    xml.create_element("ssc:Real").with_attribute(("unit", unit.name)).write_empty()?;
+                }
+                Value::Boolean { .. } => {
+                    xml.create_element("ssc:Boolean").write_empty()?;
+                }
+                Value::Enumeration { .. } => {}
+            }
+            Ok(())
+        })?;
+    Ok(())
+}
+
+fn write_connection(xml: &mut Xml, connection: &Connection<'_>) -> io::Result<()> {
+    xml.create_element("ssd:Connection")
+        .with_attributes([
+            ("startElement", connection.from),
+            ("startConnector", connection.name),
+            ("endElement", connection.to),
+            ("endConnector", connection.name),
+        ])
+        .write_empty()?;
+    Ok(())
+}
+
+fn write_default_experiment(xml: &mut Xml) -> io::Result<()> {
+    xml.create_element("ssd:DefaultExperiment")
+        .with_attribute(("startTime", number(metadata::START_TIME)))
+        .with_attribute(("stopTime", number(metadata::STOP_TIME)))
+        .write_inner_content(|xml| {
+            write_annotation(xml, "com.opensimulationplatform", |xml| {
+                xml.create_element("osp:Algorithm").write_inner_content(|xml| {
+                    xml.create_element("osp:FixedStepAlgorithm")
+                        .with_attribute(("baseStepSize", number(metadata::STEP_SIZE)))
+                        .write_empty()?;
+                    Ok(())
+                })?;
+                Ok(())
+            })
+        })?;
+    Ok(())
+}
+
+/// What is meant for one importer only.
+fn write_annotation(xml: &mut Xml, importer: &str, content: impl FnOnce(&mut Xml) -> io::Result<()>) -> io::Result<()> {
+    xml.create_element("ssd:Annotations").write_inner_content(|xml| {
+        xml.create_element("ssc:Annotation").with_attribute(("type", importer)).write_inner_content(content)?;
+        Ok(())
+    })?;
+    Ok(())
+}

@@ -1,0 +1,76 @@
+//! XML documents: declaration, indentation and how values are spelled.
+
+use std::borrow::Cow;
+use std::io;
+
+use quick_xml::events::{BytesDecl, Event};
+use quick_xml::writer::{ElementWriter, Writer};
+use uam::unit::Unit;
+
+use crate::error::{Error, Result};
+
+/// Where elements are written to.
+pub type Xml = Writer<Vec<u8>>;
+
+/// A document with the elements that `content` writes; `name` is for errors.
+pub fn document(name: &str, content: impl FnOnce(&mut Xml) -> io::Result<()>) -> Result<String> {
+    let write = || -> io::Result<String> {
+        let mut xml = Writer::new_with_indent(Vec::new(), b' ', 2);
+        xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
+        content(&mut xml)?;
+        let mut text = String::from_utf8(xml.into_inner()).map_err(io::Error::other)?;
+        text.push('\n');
+        Ok(text)
+    };
+    write().map_err(|reason| Error::Document { document: name.to_owned(), reason: reason.to_string() })
+}
+
+/// An element with every attribute on a line of its own.
+pub fn tall_element<'a>(
+    xml: &'a mut Xml,
+    name: &'static str,
+    attributes: impl IntoIterator<Item = (&'static str, &'a str)>,
+) -> ElementWriter<'a, Vec<u8>> {
+    attributes
+        .into_iter()
+        .fold(xml.create_element(name), |element, attribute| element.new_line().with_attribute(attribute))
+}
+
+/// The shortest spelling that is read back as the same number.
+pub fn number(value: f64) -> Cow<'static, str> {
+    value.to_string().into()
+}
+
+/// An integer in decimal digits.
+pub fn integer(value: i32) -> Cow<'static, str> {
+    value.to_string().into()
+}
+
+/// The exponents of a unit's base units other than 0, as attributes of a `BaseUnit` element.
+pub fn base_exponents(unit: &Unit) -> impl Iterator<Item = (&'static str, Cow<'static, str>)> {
+    [("kg", unit.kg), ("m", unit.m), ("s", unit.s), ("rad", unit.rad)]
+        .into_iter()
+        .filter(|(_, exponent)| *exponent != 0)
+        .map(|(base, exponent)| (base, integer(exponent.into())))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_come_back_bit_by_bit() {
+        for value in [0.0, -0.0, 0.1, 1e-4, -1.0 / 3.0, f64::MIN_POSITIVE, f64::MAX, 57.29577951308232] {
+            assert_eq!(number(value).parse::<f64>().unwrap().to_bits(), value.to_bits());
+        }
+    }
+
+    #[test]
+    fn what_has_a_meaning_in_xml_is_escaped() {
+        let text =
+            document("test", |xml| xml.create_element("a").with_attribute(("b", "<\"&'>")).write_empty().map(|_| ()));
+        let text = text.unwrap();
+        let parsed = roxmltree::Document::parse(&text).unwrap();
+        assert_eq!(parsed.root_element().attribute("b"), Some("<\"&'>"));
+    }
+}

@@ -1,0 +1,140 @@
+//! The master on the built FMUs: what it hands over, and what becomes of mistakes.
+
+#![allow(clippy::unwrap_used, reason = "helpers of tests may fail like tests")]
+
+mod common;
+
+use fmu_build::coupling::{Coupling, Order, Schedule};
+use fmu_build::fmu::{Fmu, Selection, Value};
+use fmu_build::record::{Names, Recording};
+use fmu_build::run::run;
+use uam::fmi2::{CommunicationStep, Model};
+use uam::interface::{controller::ControllerUnit, plant::PlantUnit};
+use uam::scenarios::{Scenario, find};
+
+fn scenario() -> Scenario {
+    find("4.3a").unwrap()
+}
+
+fn recorded(schedule: &Schedule, order: Order) -> Recording {
+    let scenario = scenario();
+    let run = run(&common::pair(), &scenario, schedule, order, &Names::standard(scenario.structure), &|| {}).unwrap();
+    assert!(run.stopped.is_none());
+    run.recording
+}
+
+/// The pose of the UAV at the end, from the models themselves, without FMI between.
+fn pose_of_models(scenario: &Scenario, schedule: &Schedule) -> [f64; 3] {
+    let structure = scenario.structure;
+    let (mut controller, mut plant) = (ControllerUnit::start(structure), PlantUnit::start(structure));
+    controller.parameters.clone_from(&scenario.parameters);
+    plant.parameters.clone_from(&scenario.parameters);
+    let mut planner = ControllerUnit::initialize(structure, &mut controller, 0.0).unwrap();
+    let mut simulation = PlantUnit::initialize(structure, &mut plant, 0.0).unwrap();
+    for interval in schedule.intervals() {
+        let step = CommunicationStep { start_time: 0.0, from: interval.from, size: interval.size };
+        plant.inputs.rate_command = controller.outputs.rate_command;
+        plant.inputs.grasp = controller.outputs.grasp;
+        simulation.step(&mut plant, step).unwrap();
+        planner.step(&mut controller, step).unwrap();
+    }
+    plant.outputs.pose.into()
+}
+
+#[test]
+fn nothing_is_lost_on_the_way_through_the_c_interface() {
+    let schedule = Schedule::new(0.0, 3.0, 1e-3).unwrap();
+    let recording = recorded(&schedule, Order::Parallel);
+    let expected = pose_of_models(&scenario(), &schedule);
+    for (name, expected) in ["base.x", "base.y", "base.roll"].into_iter().zip(expected) {
+        let found = recording.column(name)[recording.len() - 1];
+        assert!((found - expected).abs() < 1e-13, "{name}: {found} instead of {expected}");
+    }
+    assert!(expected[0] > 0.05, "the UAV has moved: {}", expected[0]);
+}
+
+#[test]
+fn rates_and_grasp_are_connected_by_name() {
+    let coupling = Coupling::new(&common::pair()).unwrap();
+    assert_eq!(coupling.connections().0, 4);
+}
+
+#[test]
+fn without_feedback_the_order_does_not_matter() {
+    let schedule = Schedule::new(0.0, 2.0, 1e-3).unwrap();
+    assert_eq!(recorded(&schedule, Order::Parallel), recorded(&schedule, Order::PlantFirst));
+}
+
+#[test]
+fn the_initial_outputs_are_handed_over_before_the_first_step() {
+    let mut scenario = scenario();
+    scenario.parameters.payload.grasp_time = -1.0;
+    let schedule = Schedule::new(0.0, 0.01, 1e-3).unwrap();
+    let names = Names::standard(scenario.structure);
+    let run = run(&common::pair(), &scenario, &schedule, Order::Parallel, &names, &|| {}).unwrap();
+    assert_eq!(run.recording.column("payload.attached")[1], 1.0);
+}
+
+#[test]
+fn instances_do_not_disturb_each_other() {
+    let schedule = Schedule::new(0.0, 1.0, 1e-3).unwrap();
+    let alone = recorded(&schedule, Order::Parallel);
+    let all: Vec<Recording> = std::thread::scope(|scope| {
+        let threads = [(); 3].map(|()| scope.spawn(|| recorded(&schedule, Order::Parallel)));
+        threads.into_iter().map(|thread| thread.join().unwrap()).collect()
+    });
+    assert!(all.iter().all(|recording| *recording == alone));
+}
+
+#[test]
+fn an_instance_can_be_reset_and_run_again() {
+    let mut plant = common::pair().plant.instantiate("again").unwrap();
+    let mut run = || {
+        plant.enter_initialization(0.0, 1.0).unwrap();
+        plant.exit_initialization().unwrap();
+        plant.set_value("joint[1].rate_command", Value::Real(0.3)).unwrap();
+        for n in 0..10 {
+            plant.do_step(f64::from(n) * 0.01, 0.01).unwrap();
+        }
+        let end = plant.value("base.roll").unwrap();
+        plant.terminate().unwrap();
+        plant.reset().unwrap();
+        end
+    };
+    assert_eq!(run(), run());
+}
+
+#[test]
+fn the_units_own_words_come_back_as_errors() {
+    let pair = common::pair();
+    let mut plant = pair.plant.instantiate("plant").unwrap();
+
+    let order = plant.do_step(0.0, 1e-3).unwrap_err().to_string();
+    assert!(order.contains("plant: fmi2DoStep answers fmi2Error"), "{order}");
+
+    let mut plant = pair.plant.instantiate("plant").unwrap();
+    let mass = plant.set_value("uav.mass", Value::Real(-1.0)).and_then(|()| plant.enter_initialization(0.0, 1.0));
+    let mass = mass.and_then(|()| plant.exit_initialization()).unwrap_err().to_string();
+    assert!(mass.contains("uav.mass") && mass.contains("-1"), "{mass}");
+}
+
+#[test]
+fn wrong_names_and_types_are_refused_before_any_call() {
+    let mut plant = common::pair().plant.instantiate("plant").unwrap();
+    let name = plant.value("base.z").unwrap_err().to_string();
+    assert!(name.contains("no variable `base.z`") && name.contains("`base."), "{name}");
+    let kind = plant.set_value("grasp", Value::Real(1.0)).unwrap_err().to_string();
+    assert_eq!(kind, "`grasp` of uam_plant is of type Boolean, not a real number");
+    assert!(Selection::new(plant.description(), ["base.x", "nothing"]).is_err());
+}
+
+#[test]
+fn what_is_no_fmu_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let missing = Fmu::open(&folder.path().join("none.fmu")).unwrap_err().to_string();
+    assert!(missing.contains("none.fmu"), "{missing}");
+    let path = folder.path().join("text.fmu");
+    std::fs::write(&path, "not a zip").unwrap();
+    let text = Fmu::open(&path).unwrap_err().to_string();
+    assert!(text.contains("no zip archive"), "{text}");
+}

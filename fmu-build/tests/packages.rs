@@ -1,0 +1,164 @@
+//! FMUs and SSPs as archives: complete, reproducible, and free of traces of the building machine.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests may fail like tests")]
+
+use std::io::{Cursor, Read};
+
+use fmu_build::package::fmu;
+use fmu_build::platform::Platform;
+use fmu_build::ssp::{Component, ssp};
+use fmu_build::units::Unit;
+use roxmltree::Document;
+use uam::Structure;
+use zip::ZipArchive;
+
+fn pack(unit: &Unit) -> Vec<u8> {
+    let platform = Platform { folder: "linux64", extension: "so" };
+    fmu(unit, platform, b"library".to_vec()).unwrap().to_bytes("test").unwrap()
+}
+
+fn pack_system(plant: &Unit, controller: &Unit) -> Vec<u8> {
+    let components = [
+        Component { name: "plant", interface: &plant.interface, fmu: &pack(plant) },
+        Component { name: "controller", interface: &controller.interface, fmu: &pack(controller) },
+    ];
+    ssp(&components).unwrap().to_bytes("test").unwrap()
+}
+
+fn system(structure: Structure) -> Vec<u8> {
+    pack_system(&Unit::plant(structure), &Unit::controller(structure))
+}
+
+fn names(archive: &[u8]) -> Vec<String> {
+    let zip = ZipArchive::new(Cursor::new(archive)).unwrap();
+    zip.file_names().map(|name| name.unwrap().into_owned()).collect()
+}
+
+fn entry(archive: &[u8], name: &str) -> Vec<u8> {
+    let mut zip = ZipArchive::new(Cursor::new(archive)).unwrap();
+    let mut content = Vec::new();
+    zip.by_name(name).unwrap().read_to_end(&mut content).unwrap();
+    content
+}
+
+fn text(archive: &[u8], name: &str) -> String {
+    String::from_utf8(entry(archive, name)).unwrap()
+}
+
+#[test]
+fn an_fmu_holds_what_the_standard_names() {
+    let archive = pack(&Unit::plant(Structure::DEFAULT));
+    assert_eq!(
+        names(&archive),
+        [
+            "binaries/linux64/uam_plant.so",
+            "documentation/index.html",
+            "documentation/licenses/LICENSE-APACHE",
+            "documentation/licenses/LICENSE-MIT",
+            "model.png",
+            "modelDescription.xml",
+        ]
+    );
+    assert_eq!(entry(&archive, "binaries/linux64/uam_plant.so"), b"library");
+}
+
+#[test]
+fn the_picture_is_a_png_of_100_by_100() {
+    for unit in [Unit::plant(Structure::DEFAULT), Unit::controller(Structure::DEFAULT)] {
+        assert_eq!(unit.icon[..8], *b"\x89PNG\r\n\x1a\n");
+        assert_eq!(unit.icon[12..24], *b"IHDR\0\0\0\x64\0\0\0\x64");
+    }
+}
+
+#[test]
+fn the_page_shows_every_variable_and_every_alternative() {
+    for structure in Structure::all() {
+        for unit in [Unit::plant(structure), Unit::controller(structure)] {
+            let page = text(&pack(&unit), "documentation/index.html");
+            for variable in &unit.interface.variables {
+                assert!(page.contains(&format!("<code>{}</code>", variable.name)), "{}", variable.name);
+            }
+            for item in unit.interface.enumerations().iter().flat_map(|enumeration| enumeration.items) {
+                assert!(page.contains(&format!("<code>{}</code>", item.name)), "{}", item.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn packing_twice_gives_the_same_bytes() {
+    for structure in Structure::all() {
+        assert!(system(structure) == system(structure), "{structure}");
+    }
+}
+
+#[test]
+fn archives_do_not_know_the_building_machine() {
+    let archive = system(Structure::DEFAULT);
+    let home = env!("CARGO_MANIFEST_DIR");
+    for name in names(&archive) {
+        if name.ends_with(".fmu") {
+            continue;
+        }
+        assert!(!text(&archive, &name).contains(home), "{name}");
+    }
+}
+
+#[test]
+fn the_system_connects_rates_and_grasp_and_nothing_else() {
+    for structure in Structure::all() {
+        let ssd = text(&system(structure), "SystemStructure.ssd");
+        let document = Document::parse(&ssd).unwrap();
+        let connections: Vec<_> = document
+            .descendants()
+            .filter(|node| node.tag_name().name() == "Connection")
+            .map(|node| {
+                assert_eq!(node.attribute("startElement"), Some("controller"));
+                assert_eq!(node.attribute("endElement"), Some("plant"));
+                assert_eq!(node.attribute("startConnector"), node.attribute("endConnector"));
+                node.attribute("endConnector").unwrap().to_owned()
+            })
+            .collect();
+        let inputs = document.descendants().filter(|node| node.attribute("kind") == Some("input"));
+        let inputs: Vec<_> = inputs.map(|input| input.attribute("name").unwrap()).collect();
+        let mut expected: Vec<_> = (1..=structure.links).map(|n| format!("joint[{n}].rate_command")).collect();
+        expected.extend(structure.counterweight.then(|| "counterweight.rate_command".to_owned()));
+        expected.push("grasp".to_owned());
+        assert_eq!(connections, expected, "{structure}");
+        assert_eq!(inputs, expected, "no input is listed without a connection");
+    }
+}
+
+#[test]
+fn the_sources_that_the_system_names_are_in_the_archive() {
+    let archive = system(Structure::DEFAULT);
+    let ssd = text(&archive, "SystemStructure.ssd");
+    let document = Document::parse(&ssd).unwrap();
+    let sources: Vec<_> = document.descendants().filter_map(|node| node.attribute("source")).collect();
+    assert_eq!(
+        sources,
+        ["resources/uam_plant.fmu", "resources/uam.ssv", "resources/uam_controller.fmu", "resources/uam.ssv"]
+    );
+    for source in sources {
+        assert!(!entry(&archive, source).is_empty());
+    }
+}
+
+#[test]
+fn the_parameter_set_serves_both_units_and_repeats_their_start_values() {
+    let controller = Unit::controller(Structure::DEFAULT);
+    let plant = Unit::plant(Structure::DEFAULT);
+    let ssv = text(&pack_system(&plant, &controller), "resources/uam.ssv");
+    let document = Document::parse(&ssv).unwrap();
+    let parameters: Vec<_> = document.descendants().filter(|node| node.tag_name().name() == "Parameter").collect();
+    assert!(parameters.len() > 20);
+    for parameter in parameters {
+        let name = parameter.attribute("name").unwrap();
+        let value: f64 = parameter.first_element_child().unwrap().attribute("value").unwrap().parse().unwrap();
+        for unit in [&plant, &controller] {
+            let variable = unit.interface.variables.iter().find(|variable| variable.name == name).unwrap();
+            let fmu_build::interface::Value::Real { start, .. } = variable.value else { panic!("{name}") };
+            assert_eq!(value.to_bits(), start.to_bits(), "{name}");
+        }
+    }
+}

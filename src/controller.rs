@@ -1,0 +1,157 @@
+//! Inverse kinematics from one communication point to the next.
+
+mod euler;
+mod exact;
+mod planner;
+mod resolution;
+mod response;
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+pub use planner::Controller;
+pub use resolution::{PATH_THRESHOLD, Resolved, Task, resolve};
+
+use crate::bytes::Memory;
+use crate::error::Result;
+use crate::for_coordinates;
+use crate::options;
+use crate::parameters::{MAX_COORDINATES, Parameters, Structure};
+use crate::planar::Vec2;
+
+options! {
+    #[doc = " How the present rates came about."]
+    pub enum Status {
+        #[doc = " All that was asked for is met."]
+        Ok = "ok",
+        #[doc = " The second task of the redundant arm is given up in part: it contradicts the path here."]
+        TaskDamped = "task_damped",
+        #[doc = " The path itself is given up in part: the arm is close to a singular configuration."]
+        PathDamped = "path_damped",
+        #[doc = " Rates are scaled down to the limit."]
+        RateLimited = "rate_limited",
+        #[doc = " An error left over, or a jump of the reference, is being made good, at a bounded speed."]
+        CatchingUp = "catching_up",
+        #[doc = " The end of the interval is off the reference: it is too long for the motion in it."]
+        Inexact = "inexact",
+    }
+}
+
+/// The wanted motion of the end effector, if the reference is external; inertial frame.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Inputs {
+    /// Position \[m\].
+    pub position: Vec2,
+    /// Velocity \[m/s\].
+    pub velocity: Vec2,
+    /// Acceleration \[m/s2\].
+    pub acceleration: Vec2,
+}
+
+/// Commands for the coming interval and what the prediction says. Joints stand first, the
+/// counterweight after the last joint of the structure.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Outputs {
+    /// Rates \[rad/s, m/s\].
+    pub rate_command: [f64; MAX_COORDINATES],
+    /// Whether the payload is to be held.
+    pub grasp: bool,
+    /// Wanted position of the end effector now \[m\].
+    pub reference: Vec2,
+    /// Wanted velocity of the end effector now \[m/s\].
+    pub reference_velocity: Vec2,
+    /// Predicted pose of the UAV now \[m, m, rad\].
+    pub predicted_pose: Vector3<f64>,
+    /// Predicted velocity of the UAV now \[m/s, m/s, rad/s\].
+    pub predicted_velocity: Vector3<f64>,
+    /// Predicted position of the end effector now \[m\].
+    pub predicted_end_effector: Vec2,
+    /// Predicted positions of joints and counterweight now \[rad, m\].
+    pub predicted_position: [f64; MAX_COORDINATES],
+    /// How the rates came about.
+    pub status: Status,
+    /// Smallest singular value of the generalized Jacobian \[m\].
+    pub min_singular_value: f64,
+    /// How far the rates miss the wanted mean velocity \[m/s\].
+    pub velocity_residual: f64,
+    /// Predicted mean moment on the UAV under these rates \[N m\].
+    pub moment_residual: f64,
+}
+
+/// How fast outputs change whose rate is no output itself; predictions: left limits.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Rates {
+    /// Wanted acceleration of the end effector now \[m/s2\].
+    pub reference_velocity: Vec2,
+    /// Predicted velocity of the end effector \[m/s\].
+    pub predicted_end_effector: Vec2,
+    /// Predicted acceleration of the UAV \[m/s2, m/s2, rad/s2\].
+    pub predicted_velocity: Vector3<f64>,
+    /// Rates of joints and counterweight in the finished interval \[rad/s, m/s\].
+    pub predicted_position: [f64; MAX_COORDINATES],
+}
+
+impl Default for Outputs {
+    fn default() -> Self {
+        Self {
+            rate_command: [0.0; MAX_COORDINATES],
+            grasp: false,
+            reference: Vec2::zeros(),
+            reference_velocity: Vec2::zeros(),
+            predicted_pose: Vector3::zeros(),
+            predicted_velocity: Vector3::zeros(),
+            predicted_end_effector: Vec2::zeros(),
+            predicted_position: [0.0; MAX_COORDINATES],
+            status: Status::Ok,
+            min_singular_value: 0.0,
+            velocity_residual: 0.0,
+            moment_residual: 0.0,
+        }
+    }
+}
+
+/// A controller of any number of coordinates.
+pub trait Planner: Memory + Send {
+    /// Advances the prediction from `t`, counted from the start, by `size` \[s\] and plans if it is time.
+    ///
+    /// # Errors
+    /// If the prediction is no longer finite.
+    fn step(
+        &mut self,
+        parameters: &Parameters,
+        inputs: &Inputs,
+        t: f64,
+        size: f64,
+        outputs: &mut Outputs,
+    ) -> Result<()>;
+
+    /// How fast the outputs at time `t`, the present one counted from the start, change.
+    fn rates(&self, inputs: &Inputs, t: f64) -> Rates;
+
+    /// A copy that continues on its own.
+    fn clone_box(&self) -> Box<dyn Planner>;
+}
+
+impl Clone for Box<dyn Planner> {
+    fn clone(&self) -> Self {
+        self.clone_box()
+    }
+}
+
+/// A controller to be given the memory of another one.
+///
+/// # Errors
+/// If a parameter is out of its bounds, or parameters do not go together.
+pub fn without_plan(structure: Structure, parameters: &Parameters) -> Result<Box<dyn Planner>> {
+    parameters.check(structure)?;
+    for_coordinates!(structure, N => Ok(Box::new(Controller::<N>::without_plan(structure, parameters)?)))
+}
+
+/// A controller at the start, with the first interval planned.
+///
+/// # Errors
+/// If a parameter is out of its bounds, or parameters do not go together.
+pub fn new(structure: Structure, parameters: &Parameters, outputs: &mut Outputs) -> Result<Box<dyn Planner>> {
+    parameters.check(structure)?;
+    for_coordinates!(structure, N => Ok(Box::new(Controller::<N>::new(structure, parameters, outputs)?)))
+}

@@ -1,0 +1,74 @@
+//! Plans that hold at the end of the interval, not only to first order.
+//!
+//! The coming interval is integrated under the rates in question; the end effector is then on the
+//! reference at its end, and the mean moment on the UAV is zero if that is asked for. Each iteration
+//! solves the whole resolution linearised at the present rates, not a correction to them: corrections of
+//! minimum norm would let motion in the null space grow without bound.
+
+use super::planner::Plan;
+use super::resolution::{Task, resolve};
+use super::response::moment_impulse;
+use super::{Controller, Status};
+use crate::dynamics::{Loads, Motion};
+use crate::error::Result;
+use crate::parameters::Resolution;
+use crate::planar::Vec2;
+
+/// Iterations of a plan at most; two do normally.
+const ITERATIONS: usize = 4;
+
+/// End effector this close to the reference at the end of the interval is on it \[m\].
+const ON_REFERENCE: f64 = 1e-12;
+
+/// Farther from the reference than this, an iteration that has come to its end has failed \[m\].
+const INEXACT: f64 = 1e-6;
+
+/// Moment impulses on the UAV below this are none \[N m s\].
+const NO_IMPULSE: f64 = 1e-12;
+
+impl<const N: usize> Controller<N> {
+    /// Rates for the interval of length `horizon` from time `t` that bring the end effector to `target` at
+    /// its end, as near as the iteration gets.
+    ///
+    /// # Errors
+    /// If the interval cannot be integrated.
+    pub(super) fn plan_exact(&self, t: f64, horizon: f64, target: Vec2) -> Result<Plan<N>> {
+        let dynamics = &self.dynamics;
+        // Rates that go on changing as they did are close already.
+        let mut plan = Plan::holding(self.rate * 2.0 - self.rate_before, self.situation);
+        let mut nearest: Option<(f64, Plan<N>)> = None;
+        for iteration in 0..=ITERATIONS {
+            plan.end = self.situation;
+            let motion = Motion::constant(plan.rate);
+            let impulse = dynamics.advance::<false>(&mut plan.end, &motion, &Loads::default(), t, horizon)?;
+            let moment = moment_impulse(dynamics, &self.situation.state, &plan.end.state, impulse.torque);
+            plan.moment_residual = moment / horizon;
+            let missing = target - plan.end.place(plan.end.node.posture.end_effector);
+            let miss = missing.norm();
+            let moment_free = self.resolution != Resolution::ExtendedJacobian || moment.abs() <= NO_IMPULSE;
+            if iteration > 0 {
+                if (miss <= ON_REFERENCE && moment_free) || (iteration == ITERATIONS && miss <= INEXACT) {
+                    return Ok(plan);
+                }
+                if plan.status == Status::Ok && nearest.as_ref().is_none_or(|(least, _)| miss < *least) {
+                    nearest = Some((miss, plan.clone()));
+                }
+            }
+            if iteration == ITERATIONS {
+                break;
+            }
+
+            let response = self.response(&plan.end);
+            let velocity = response.jacobian * plan.rate + plan.end.turn.undo(missing / horizon);
+            let task = Task { row: response.moment, value: response.moment.dot(&plan.rate) - moment };
+            let wanted = (self.resolution == Resolution::ExtendedJacobian).then_some(&task);
+            let resolved = resolve(&response.jacobian, velocity, wanted, dynamics.vehicle.reach());
+            plan.min_singular_value = resolved.min_singular_value;
+            (plan.rate, plan.status) = self.limited(&resolved);
+        }
+        match nearest {
+            Some((_, nearest)) if plan.status == Status::Ok => Ok(Plan { status: Status::Inexact, ..nearest }),
+            _ => Ok(plan),
+        }
+    }
+}

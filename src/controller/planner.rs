@@ -1,0 +1,356 @@
+//! When to plan, what to hold, and what to tell the host.
+//!
+//! At a communication point the controller plans the rates for the coming interval and holds them until
+//! the next sample instant, while the prediction advances by the host's real steps with the rates sent.
+
+use nalgebra::SVector;
+
+use super::resolution::Resolved;
+use super::response::Response;
+use super::{Inputs, Outputs, Planner, Rates, Status};
+use crate::autopilot::AutopilotMode;
+use crate::bytes::{self, Memory};
+use crate::dynamics::{Dynamics, Load, Loads, Motion, Situation};
+use crate::error::{Error, Result};
+use crate::options::Choice;
+use crate::parameters::{Discretization, Parameters, Resolution, Structure};
+use crate::planar::Vec2;
+use crate::reference::{Reference, ReferenceKind, Target};
+
+/// Sample instants this share of a sample time ahead are reached.
+const SAME_INSTANT: f64 = 1e-6;
+
+/// Times this close are the same \[s\]: hosts add up their steps.
+const SAME_TIME: f64 = 1e-9;
+
+/// What a plan has left over, for instance beyond reach, is made good at this speed at most \[m/s\].
+const CATCHING_UP: f64 = 0.2;
+
+/// What an external reference moves beyond what was foreseen is followed at this speed at most \[m/s\].
+const UNFORESEEN: f64 = 2.0;
+
+/// A target nearer than this is not said to be out of what one interval may make good \[m\].
+const SHORTENED: f64 = 1e-9;
+
+/// Rates for one interval.
+#[derive(Debug, Clone)]
+pub(super) struct Plan<const N: usize> {
+    pub rate: SVector<f64, N>,
+    pub status: Status,
+    pub min_singular_value: f64,
+    pub velocity_residual: f64,
+    pub moment_residual: f64,
+    /// The prediction at the end of the interval.
+    pub end: Situation<N>,
+}
+
+impl<const N: usize> Plan<N> {
+    /// A plan to be made: so far it is in `situation`, moving at `rate`.
+    pub fn holding(rate: SVector<f64, N>, situation: Situation<N>) -> Self {
+        Self {
+            rate,
+            status: Status::Ok,
+            min_singular_value: 0.0,
+            velocity_residual: 0.0,
+            moment_residual: 0.0,
+            end: situation,
+        }
+    }
+
+    /// Whether all that the host will see of it is finite.
+    fn check(&self, t: f64) -> Result<()> {
+        let values = [self.velocity_residual, self.moment_residual, self.min_singular_value];
+        if let Some(&value) = self.rate.iter().chain(&values).find(|value| !value.is_finite()) {
+            return Err(Error::NotFinite { quantity: "planned rate or residual", value, time: t });
+        }
+        self.end.state.check(t)
+    }
+}
+
+/// Inverse kinematics of an aerial manipulator with `N` coordinates, with its prediction.
+#[derive(Debug, Clone)]
+pub struct Controller<const N: usize> {
+    pub(super) dynamics: Dynamics<N>,
+    pub(super) resolution: Resolution,
+    /// The prediction.
+    pub(super) situation: Situation<N>,
+    /// Rates sent.
+    pub(super) rate: SVector<f64, N>,
+    /// Rates of the plan before.
+    pub(super) rate_before: SVector<f64, N>,
+    discretization: Discretization,
+    sample_time: f64,
+    grasp_time: f64,
+    reference: Reference,
+    rate_limit: SVector<f64, N>,
+    /// Where the end effector starts.
+    origin: Vec2,
+    /// Where the reference was expected at the end of the planned interval.
+    aim: Vec2,
+    /// When the last plan was made, from the start, and for how long.
+    planned_at: f64,
+    horizon: f64,
+    /// The prediction at the end of the planned interval.
+    planned_end: Situation<N>,
+}
+
+impl<const N: usize> Controller<N> {
+    /// At the start, with the first interval planned and the outputs written.
+    ///
+    /// # Errors
+    /// If the parameters do not go together.
+    pub fn new(structure: Structure, parameters: &Parameters, outputs: &mut Outputs) -> Result<Self> {
+        let mut controller = Self::without_plan(structure, parameters)?;
+        // Measurements and external references act from the first step on.
+        let here = Inputs { position: controller.origin, ..Inputs::default() };
+        *outputs = Outputs::default();
+        controller.grasp_in_time(0.0);
+        controller.plan(0.0, &here, outputs)?;
+        controller.write_prediction(0.0, &here, outputs);
+        Ok(controller)
+    }
+
+    /// At the start, with nothing planned.
+    ///
+    /// # Errors
+    /// If the parameters do not go together.
+    pub fn without_plan(structure: Structure, parameters: &Parameters) -> Result<Self> {
+        let ik = &parameters.ik;
+        if ik.resolution == Resolution::ExtendedJacobian && structure.links < 3 {
+            return Err(Error::Inconsistent {
+                name: "ik.resolution".to_owned(),
+                expected: format!("an arm of 3 links or more is needed, this one has {structure}; use minimum_norm"),
+                found: ik.resolution.name().to_owned(),
+            });
+        }
+        let mut dynamics = Dynamics::new(structure, parameters, ik.base_model)?;
+        // Of an autopilot outside, the pid law with the same gains is the best guess.
+        if dynamics.autopilot.mode == AutopilotMode::External {
+            dynamics.set_mode(AutopilotMode::Pid);
+        }
+        let situation = dynamics.start(parameters);
+        let origin = situation.node.posture.end_effector;
+        let mut controller = Self {
+            resolution: ik.resolution,
+            discretization: ik.discretization,
+            sample_time: ik.sample_time,
+            grasp_time: parameters.payload.grasp_time,
+            reference: parameters.reference.clone(),
+            rate: SVector::zeros(),
+            rate_before: SVector::zeros(),
+            rate_limit: SVector::zeros(),
+            planned_at: 0.0,
+            horizon: ik.sample_time,
+            planned_end: situation,
+            dynamics,
+            situation,
+            origin,
+            aim: origin,
+        };
+        controller.tune(parameters);
+        Ok(controller)
+    }
+
+    fn tune(&mut self, parameters: &Parameters) {
+        self.dynamics.tune(&parameters.autopilot);
+        // The counterweight holds still and needs no limit.
+        self.rate_limit = SVector::from_fn(|i, _| {
+            if i < self.dynamics.vehicle.links { parameters.joints[i].rate_limit } else { f64::INFINITY }
+        });
+    }
+
+    /// Takes the payload over in the prediction if it is time: the host is told at the same instant.
+    fn grasp_in_time(&mut self, t: f64) {
+        if t >= self.grasp_time - SAME_TIME && !self.situation.state.held {
+            self.dynamics.grasp(&mut self.situation);
+        }
+    }
+
+    /// Where the end effector is predicted to be now.
+    fn end_effector(&self) -> Vec2 {
+        self.situation.place(self.situation.node.posture.end_effector)
+    }
+
+    /// How it moves, just before any jump of the rates now.
+    fn end_effector_velocity(&self) -> Vec2 {
+        let Situation { turn, node, .. } = &self.situation;
+        turn.apply(node.velocity_at(&self.dynamics.vehicle, node.posture.end_effector, self.situation.base()))
+    }
+
+    /// Plans the interval from time `t` on.
+    fn plan(&mut self, t: f64, inputs: &Inputs, outputs: &mut Outputs) -> Result<()> {
+        let target = self.target(t, self.horizon, inputs);
+        let plan = match self.discretization {
+            Discretization::Exact => self.plan_towards(t, target.displacement, inputs)?,
+            Discretization::Euler => self.plan_euler(t, self.horizon, target.velocity),
+        };
+        plan.check(t)?;
+        self.aim = target.displacement;
+        self.rate_before = std::mem::replace(&mut self.rate, plan.rate);
+        self.planned_at = t;
+        self.planned_end = plan.end;
+        outputs.status = plan.status;
+        outputs.min_singular_value = plan.min_singular_value;
+        outputs.velocity_residual = plan.velocity_residual;
+        outputs.moment_residual = plan.moment_residual;
+        Ok(())
+    }
+
+    /// A plan that brings the end effector to `target`, or as near to it as it may come in one interval.
+    fn plan_towards(&self, t: f64, target: Vec2, inputs: &Inputs) -> Result<Plan<N>> {
+        let (here, now) = (self.end_effector(), self.target(t, 0.0, inputs).displacement);
+        let left_over = (self.aim - here).cap_magnitude(CATCHING_UP * self.horizon);
+        let unforeseen = (now - self.aim).cap_magnitude(UNFORESEEN * self.horizon);
+        let mut plan = self.plan_exact(t, self.horizon, here + left_over + unforeseen + (target - now))?;
+        let missing = target - plan.end.place(plan.end.node.posture.end_effector);
+        plan.velocity_residual = missing.norm() / self.horizon;
+        let shortened = (now - here) - (left_over + unforeseen);
+        if plan.status == Status::Ok && shortened != Vec2::zeros() && missing.norm() > SHORTENED {
+            plan.status = Status::CatchingUp;
+        }
+        Ok(plan)
+    }
+
+    /// The wanted motion `ahead` \[s\] after time `t`, its displacement from the origin of the inertial frame.
+    fn target(&self, t: f64, ahead: f64, inputs: &Inputs) -> Target {
+        if self.reference.kind == ReferenceKind::External {
+            let (v, a) = (inputs.velocity, inputs.acceleration);
+            return Target {
+                displacement: inputs.position + (v + a * (0.5 * ahead)) * ahead,
+                velocity: v + a * ahead,
+                acceleration: a,
+            };
+        }
+        let mut target = self.reference.at(t + ahead);
+        target.displacement += self.origin;
+        target
+    }
+
+    /// How the system answers to the rates that the resolution may use.
+    ///
+    /// The counterweight holds still. Minimum norm would displace it without regard to the moment of its
+    /// weight; and since it sits above the UAV's centre of mass, its acceleration turns the UAV the wrong way
+    /// before its weight turns it the right way (thesis 3.8), so that rates which cancel the moment at every
+    /// instant would grow without bound.
+    pub(super) fn response(&self, situation: &Situation<N>) -> Response<N> {
+        let response = Response::new(&self.dynamics, &situation.node, situation.momentum());
+        if self.dynamics.vehicle.counterweight.is_some() { response.holding(N - 1) } else { response }
+    }
+
+    /// Scales rates down so that none exceeds its limit, and sums up how they came about.
+    pub(super) fn limited(&self, resolved: &Resolved<N>) -> (SVector<f64, N>, Status) {
+        let excess = resolved.rate.component_div(&self.rate_limit).amax();
+        if excess > 1.0 {
+            return (resolved.rate / excess, Status::RateLimited);
+        }
+        let status = match (resolved.path_damped, resolved.task_damped) {
+            (true, _) => Status::PathDamped,
+            (false, true) => Status::TaskDamped,
+            (false, false) => Status::Ok,
+        };
+        (resolved.rate, status)
+    }
+
+    /// Advances the prediction by `size` \[s\] at the rates sent.
+    fn predict(&mut self, t: f64, size: f64) -> Result<()> {
+        // The plan has already been there, if the host makes the step that it was made for.
+        self.situation = if size == self.horizon && (t - self.planned_at).abs() < SAME_TIME {
+            self.planned_end
+        } else if self.discretization == Discretization::Euler {
+            self.predict_euler(t, size)
+        } else {
+            let motion = Motion::constant(self.rate);
+            let mut end = self.situation;
+            self.dynamics.advance::<false>(&mut end, &motion, &Loads::default(), t, size)?;
+            end
+        };
+        self.situation.state.check(t + size)
+    }
+
+    fn write_prediction(&self, t: f64, inputs: &Inputs, outputs: &mut Outputs) {
+        let state = &self.situation.state;
+        let now = self.target(t, 0.0, inputs);
+        outputs.rate_command[..N].copy_from_slice(self.rate.as_slice());
+        outputs.grasp = state.held;
+        outputs.reference = now.displacement;
+        outputs.reference_velocity = now.velocity;
+        outputs.predicted_pose = state.pose;
+        outputs.predicted_velocity = state.velocity;
+        outputs.predicted_position[..N].copy_from_slice(state.position.as_slice());
+        outputs.predicted_end_effector = self.end_effector();
+    }
+}
+
+impl<const N: usize> Memory for Controller<N> {
+    fn save(&self, bytes: &mut Vec<u8>) -> Result<()> {
+        // Without "..": whoever adds a field decides here whether it follows from the parameters.
+        let Self {
+            dynamics: _,
+            resolution: _,
+            situation,
+            rate,
+            rate_before,
+            discretization: _,
+            sample_time: _,
+            grasp_time: _,
+            reference: _,
+            rate_limit: _,
+            origin: _,
+            aim,
+            planned_at,
+            horizon,
+            planned_end,
+        } = self;
+        bytes::write(&(situation, rate, rate_before, aim, planned_at, horizon, planned_end), bytes)
+    }
+
+    fn restore(&mut self, bytes: &mut &[u8]) -> Result<()> {
+        (self.situation, self.rate, self.rate_before, self.aim, self.planned_at, self.horizon, self.planned_end) =
+            bytes::read(bytes)?;
+        self.situation.state.check_memory()?;
+        self.planned_end.state.check_memory()?;
+        let times = [("time of the last plan", self.planned_at), ("length of the planned interval", self.horizon)];
+        match times.into_iter().find(|(_, value)| !value.is_finite()) {
+            Some((quantity, value)) => Err(Error::Impossible { quantity, value }),
+            None => Ok(()),
+        }
+    }
+}
+
+impl<const N: usize> Planner for Controller<N> {
+    fn step(
+        &mut self,
+        parameters: &Parameters,
+        inputs: &Inputs,
+        t: f64,
+        size: f64,
+        outputs: &mut Outputs,
+    ) -> Result<()> {
+        self.tune(parameters);
+        self.predict(t, size)?;
+        let now = t + size;
+        self.grasp_in_time(now);
+        if now - self.planned_at >= self.horizon - SAME_INSTANT * self.sample_time {
+            self.horizon = size * (self.sample_time / size - SAME_INSTANT).ceil().max(1.0);
+            self.plan(now, inputs, outputs)?;
+        }
+        self.write_prediction(now, inputs, outputs);
+        Ok(())
+    }
+
+    fn rates(&self, inputs: &Inputs, t: f64) -> Rates {
+        let held = SVector::zeros();
+        let mut rates = Rates {
+            reference_velocity: self.target(t, 0.0, inputs).acceleration,
+            predicted_end_effector: self.end_effector_velocity(),
+            predicted_velocity: self.dynamics.at_end(&self.situation, &held, &Load::NONE).acceleration,
+            ..Rates::default()
+        };
+        rates.predicted_position[..N].copy_from_slice(self.situation.state.rate.as_slice());
+        rates
+    }
+
+    fn clone_box(&self) -> Box<dyn Planner> {
+        Box::new(self.clone())
+    }
+}

@@ -1,0 +1,176 @@
+//! A step of any length: cut into internal steps at samples of the autopilot, at switching of contact, and
+//! as short as the fastest rates ask for.
+
+use nalgebra::{SVector, Vector3};
+
+use super::law::{Flow, Scene};
+use super::{Dynamics, Impulse, Load, Loads, Motion, Node, Situation, State, in_inertial_frame};
+use crate::autopilot::AutopilotMode;
+use crate::error::{Error, Result};
+use crate::kinematics::Configuration;
+use crate::planar::{Turn, vec2};
+
+/// Longest internal step \[s\]; a millisecond that is not quite one, by rounding, is not cut in two.
+const LONGEST: f64 = 1.05e-3;
+
+/// Longest internal step times the fastest rate of control or turning: order 4 leaves 1e-12 of the
+/// amplitude there.
+const RESOLUTION: f64 = 0.01;
+
+/// The same while the support pushes on the payload: every bounce adds up.
+const SUPPORT_RESOLUTION: f64 = 0.005;
+
+/// A base that tumbles drags everything along and adds up errors over its turns: it counts so much more.
+const TUMBLING: f64 = 3.0;
+
+/// Most internal steps in one step, which then takes a tenth of a second; more are taken for a mistake.
+const MOST_STEPS: f64 = 2e5;
+
+/// An instant this close to a sample of the autopilot is the sample \[s\].
+const SAME_INSTANT: f64 = 1e-9;
+
+impl<const N: usize> Dynamics<N> {
+    /// Advances `situation` from time `t`, counted from the start, by `size` \[s\] under the imposed
+    /// `motion` and `loads`; `TORQUES`: the impulses outboard of the joints are wanted, too.
+    ///
+    /// # Errors
+    /// If the step needs more than 200000 internal steps.
+    pub fn advance<const TORQUES: bool>(
+        &self,
+        situation: &mut Situation<N>,
+        motion: &Motion<N>,
+        loads: &Loads,
+        t: f64,
+        size: f64,
+    ) -> Result<Impulse<N>> {
+        let Situation { state, turn, node } = situation;
+        let start = state.position;
+        let mut impulse = Impulse::zero();
+        // A sample still sees the velocities before the jump of the rates.
+        let mut until_sample = self.sample(state, &loads.begin, t);
+        let sample_time = if until_sample.is_finite() { self.autopilot.sample_time } else { f64::INFINITY };
+        let mut flow = state.flow();
+        node.move_at(motion.rate);
+        state.contact = self.touches(&flow, *turn, node, state.held);
+        let mut elapsed = 0.0;
+        let mut stuck = false;
+        let mut room = Load::NONE;
+        while elapsed < size {
+            let left = size - elapsed;
+            let roll_rate = self.base_velocity(&flow, *turn, node).angular;
+            let longest = self.longest_internal_step(node, motion, roll_rate, state.contact, size);
+            let most = MOST_STEPS * longest.min(sample_time);
+            if left > most {
+                return Err(Error::StepTooLong { size, most });
+            }
+            // A sample at the end belongs to the step that begins there.
+            let piece = if until_sample < left - SAME_INSTANT { until_sample } else { left };
+            let length = if piece > longest { piece / (piece / longest).ceil() } else { piece };
+            let scene = Scene {
+                loads,
+                elapsed,
+                held: state.held,
+                contact: state.contact,
+                sampled: state.sampled,
+                near: (flow[2], *turn),
+                motion: motion.after(elapsed),
+            };
+            // The last piece ends the step, whatever the sum of the pieces rounds to.
+            let last = length == left;
+            let end = if last {
+                Configuration::new(&self.vehicle, &(start + motion.way(size)))
+            } else {
+                scene.configuration_after(&self.vehicle, node, length)
+            };
+            let mut covered = length;
+            let mut step = self.internal_step::<TORQUES>(&flow, node, end, length, &scene);
+            // Right after switching, rounding must not switch back for ever.
+            let within = if stuck { None } else { self.switches_within(&flow, node, length, &scene, &step) };
+            if let Some(bracket) = within {
+                covered = self.switching_instant(&flow, node, bracket, &scene);
+                step = self.stepped(&flow, node, covered, &scene);
+                state.contact = !state.contact;
+            }
+            stuck = covered == 0.0;
+            elapsed = if last && within.is_none() { size } else { elapsed + covered };
+            until_sample -= covered;
+            (flow, *node) = (step.flow, step.node);
+            *turn = self.base.turn(flow[2]);
+            impulse = impulse + step.impulse;
+            if until_sample <= 0.0 && elapsed < size {
+                self.settle(state, &flow, *turn, node);
+                until_sample = self.sample(state, loads.present(elapsed, &mut room), t + elapsed);
+                (flow[6], flow[7]) = (state.integrals.x, state.integrals.y);
+            }
+        }
+        self.settle(state, &flow, *turn, node);
+        state.position = start + motion.way(size);
+        state.rate = motion.rate_after(size);
+        if self.on_carriage() {
+            let h = node.matrix.of_base(self.base_velocity(&flow, Turn::NONE, node)) + node.arm;
+            impulse.axial_thrust = h.linear.y - flow[4];
+            impulse.thrust = vec2(0.0, impulse.axial_thrust);
+            impulse.torque = h.angular - flow[5];
+            (state.momentum.y, state.momentum.z) = (h.linear.y, h.angular);
+        }
+        Ok(impulse)
+    }
+
+    /// Writes pose, momentum, integrals and velocities into `state`.
+    fn settle(&self, state: &mut State<N>, flow: &Flow, turn: Turn, node: &Node<N>) {
+        state.pose = Vector3::new(flow[0], flow[1], flow[2]);
+        state.momentum = Vector3::new(flow[3], flow[4], flow[5]);
+        state.integrals = vec2(flow[6], flow[7]);
+        state.velocity = in_inertial_frame(turn, self.base_velocity(flow, turn, node));
+        state.rate = node.rate;
+    }
+
+    /// Takes a sample of a sampled autopilot if it is due at time `t`; how long until the next one \[s\].
+    ///
+    /// A sample sees the integral over the samples before it, by rectangles.
+    pub(super) fn sample(&self, state: &mut State<N>, load: &Load, t: f64) -> f64 {
+        let interval = self.autopilot.sample_time;
+        if self.autopilot.mode != AutopilotMode::Pid || interval == 0.0 {
+            return f64::INFINITY;
+        }
+        if t >= instant(state.samples, interval) - SAME_INSTANT {
+            state.sampled = self.hover_law(&state.pose, &state.velocity, state.integrals, load);
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // times are not negative
+            let passed = ((t + SAME_INSTANT) / interval) as u64;
+            let samples = passed.max(state.samples) + 1;
+            // Samples that a long explicit step has left out count with this one.
+            let covered = instant(samples, interval) - instant(state.samples, interval);
+            state.integrals += vec2(state.pose.y - load.altitude, state.pose.z - load.roll) * covered;
+            state.samples = samples;
+        }
+        instant(state.samples, interval) - t
+    }
+
+    /// The longest internal step that resolves autopilot, support and the turning of the links.
+    fn longest_internal_step(
+        &self,
+        node: &Node<N>,
+        motion: &Motion<N>,
+        roll_rate: f64,
+        contact: bool,
+        size: f64,
+    ) -> f64 {
+        let vehicle = &self.vehicle;
+        let turning = |rate: SVector<f64, N>| rate.iter().take(vehicle.links).map(|rate| rate.abs()).sum::<f64>();
+        let turning = turning(motion.rate).max(turning(motion.rate_after(size))) + TUMBLING * roll_rate.abs();
+        let longest = LONGEST.min(RESOLUTION / turning.max(self.control_rate));
+        if !contact {
+            return longest;
+        }
+        // The support feels the mass of the system and, at a lever, its inertia.
+        let lever = node.posture.payload.x;
+        let mobility = 1.0 / node.matrix.mass + lever * lever / vehicle.uav_inertia;
+        longest.min(SUPPORT_RESOLUTION / (self.support.stiffness * mobility).sqrt())
+    }
+}
+
+/// When the autopilot takes its sample with this number, counted from 0 \[s\].
+#[allow(clippy::cast_precision_loss)] // 2^53 samples take centuries
+fn instant(number: u64, interval: f64) -> f64 {
+    number as f64 * interval
+}

@@ -1,0 +1,111 @@
+//! The payload on its elastic support: contact begins and ends inside a step.
+//!
+//! The support pushes with k (y_s - y_payload) and never pulls (thesis 4.1). The force has a kink where
+//! contact switches, so a step is cut there, at an instant found by iterating on the step's length.
+
+use super::Dynamics;
+use super::law::{Flow, Node, Scene};
+use super::runge_kutta::Internal;
+use crate::planar::Turn;
+
+/// Gaps below this are zero \[m\]: their force is rounding.
+const NO_GAP: f64 = 1e-13;
+
+/// Iterations that find a switching instant; the bracket shrinks superlinearly.
+const ITERATIONS: usize = 60;
+
+impl<const N: usize> Dynamics<N> {
+    /// Whether the support pushes on the held payload right after the present instant.
+    pub(super) fn touches(&self, flow: &Flow, turn: Turn, node: &Node<N>, held: bool) -> bool {
+        if !held || self.support.stiffness == 0.0 {
+            return false;
+        }
+        let gap = self.gap(flow, turn, node);
+        if gap.abs() > NO_GAP { gap < 0.0 } else { self.gap_rate(flow, turn, node) < 0.0 }
+    }
+
+    /// Length of an internal step, no longer than `size`, within which contact switches, or `None` if it
+    /// lasts, or stays away, all through `whole`, the step of length `size`.
+    pub(super) fn switches_within(
+        &self,
+        flow: &Flow,
+        node: &Node<N>,
+        size: f64,
+        scene: &Scene<'_, N>,
+        whole: &Internal<N>,
+    ) -> Option<f64> {
+        if !scene.held || self.support.stiffness == 0.0 {
+            return None;
+        }
+        let end = self.margin(&whole.flow, &whole.node, scene);
+        if end < -NO_GAP {
+            return Some(size);
+        }
+        // Both ends lie on the same side; in between there may be a way across and back.
+        let start = self.margin(flow, node, scene).max(0.0);
+        let rate = |flow: &Flow, node: &Node<N>| scene.side() * self.gap_rate(flow, self.turn(flow, scene), node);
+        let dip = lowest([start, end], [rate(flow, node), rate(&whole.flow, &whole.node)], size)?;
+        let middle = self.stepped(flow, node, dip, scene);
+        (self.margin(&middle.flow, &middle.node, scene) < -NO_GAP).then_some(dip)
+    }
+
+    /// The instant within an internal step of length `size` at which contact switches.
+    #[cold]
+    pub(super) fn switching_instant(&self, flow: &Flow, node: &Node<N>, size: f64, scene: &Scene<'_, N>) -> f64 {
+        let margin_after = |length: f64| {
+            let step = self.stepped(flow, node, length, scene);
+            self.margin(&step.flow, &step.node, scene)
+        };
+        let (mut low, mut high) = ((0.0, self.margin(flow, node, scene)), (size, margin_after(size)));
+        // Right after switching the margin is rounding: what is wanted is the way back, not the way here.
+        while low.1 <= NO_GAP && high.0 > f64::EPSILON * size {
+            let length = 0.5 * high.0;
+            let value = margin_after(length);
+            if value > NO_GAP {
+                low = (length, value);
+            } else {
+                high = (length, value);
+            }
+        }
+        // Regula falsi with halving of the stale end's value (Illinois).
+        let mut side = 0;
+        for _ in 0..ITERATIONS {
+            let length = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
+            let value = margin_after(length);
+            if value.abs() <= NO_GAP || high.0 - low.0 <= f64::EPSILON * size {
+                return length;
+            }
+            if value > 0.0 {
+                low = (length, value);
+                high.1 *= if side == 1 { 0.5 } else { 1.0 };
+                side = 1;
+            } else {
+                high = (length, value);
+                low.1 *= if side == -1 { 0.5 } else { 1.0 };
+                side = -1;
+            }
+        }
+        high.0
+    }
+
+    /// Distance \[m\] from switching: positive while the present state of contact lasts.
+    fn margin(&self, flow: &Flow, node: &Node<N>, scene: &Scene<'_, N>) -> f64 {
+        scene.side() * self.gap(flow, self.turn(flow, scene), node)
+    }
+}
+
+/// Where the cubic with these values and slopes at both ends of an interval of length `size` falls below
+/// zero, if it does: its minimum.
+fn lowest([start, end]: [f64; 2], [down, up]: [f64; 2], size: f64) -> Option<f64> {
+    if down >= 0.0 || up <= 0.0 {
+        return None;
+    }
+    // Hermite form in s = t / size: c0 + c1 s + c2 s^2 + c3 s^3.
+    let (c1, slope) = (down * size, up * size);
+    let c2 = 3.0 * (end - start) - 2.0 * c1 - slope;
+    let c3 = 2.0 * (start - end) + c1 + slope;
+    let root = (c2 * c2 - 3.0 * c1 * c3).max(0.0).sqrt();
+    let s = -c1 / (c2 + root);
+    let value = start + s * (c1 + s * (c2 + s * c3));
+    (s > 0.0 && s < 1.0 && value < 0.0).then_some(s * size)
+}

@@ -1,0 +1,106 @@
+//! Pointers from the host, checked as far as they can be, as Rust references.
+
+use std::borrow::Cow;
+use std::ffi::CStr;
+use std::slice;
+
+use super::c_types::Text;
+use super::error::Error;
+
+/// The `count` elements at `data`. Nothing is read if `count` is 0.
+///
+/// # Errors
+/// If there are more than `limit`, or the pointer is null or not aligned.
+///
+/// # Safety
+/// A pointer that is neither null nor misaligned must be good for `count` elements.
+pub unsafe fn list<'a, T>(
+    argument: &'static str,
+    data: *const T,
+    count: usize,
+    limit: usize,
+) -> Result<&'a [T], Error> {
+    if count == 0 {
+        return Ok(&[]);
+    }
+    check_list(argument, data, count, limit)?;
+    // SAFETY: promised by the caller; `limit` is far below what a slice may span.
+    Ok(unsafe { slice::from_raw_parts(data, count) })
+}
+
+/// The `count` elements at `data`, to be written; otherwise like [`list`].
+///
+/// # Errors
+/// Like [`list`].
+///
+/// # Safety
+/// Like [`list`], and nothing else may use the elements during the call.
+pub unsafe fn list_mut<'a, T>(
+    argument: &'static str,
+    data: *mut T,
+    count: usize,
+    limit: usize,
+) -> Result<&'a mut [T], Error> {
+    if count == 0 {
+        return Ok(&mut []);
+    }
+    check_list(argument, data, count, limit)?;
+    // SAFETY: promised by the caller; `limit` is far below what a slice may span.
+    Ok(unsafe { slice::from_raw_parts_mut(data, count) })
+}
+
+fn check_list<T>(argument: &'static str, data: *const T, count: usize, limit: usize) -> Result<(), Error> {
+    if count > limit {
+        return Err(Error::Argument {
+            argument,
+            expected: format!("a list of at most {limit} elements"),
+            found: format!("one of {count}"),
+        });
+    }
+    if data.is_null() || !data.is_aligned() { Err(Error::Pointer { argument }) } else { Ok(()) }
+}
+
+/// The place at which the host wants an answer.
+///
+/// # Errors
+/// If the pointer is null or not aligned.
+///
+/// # Safety
+/// Otherwise it must be good for writing.
+pub unsafe fn place<'a, T>(argument: &'static str, data: *mut T) -> Result<&'a mut T, Error> {
+    if data.is_null() || !data.is_aligned() {
+        return Err(Error::Pointer { argument });
+    }
+    // SAFETY: promised by the caller.
+    Ok(unsafe { &mut *data })
+}
+
+/// A copy of a structure of the host.
+///
+/// # Errors
+/// If the pointer is null or not aligned.
+///
+/// # Safety
+/// Otherwise it must be good for reading.
+pub unsafe fn copy<T: Copy>(argument: &'static str, data: *const T) -> Result<T, Error> {
+    if data.is_null() || !data.is_aligned() {
+        return Err(Error::Pointer { argument });
+    }
+    // SAFETY: promised by the caller.
+    Ok(unsafe { *data })
+}
+
+/// A text of the host; what is no UTF-8 in it is replaced.
+///
+/// # Errors
+/// If the pointer is null.
+///
+/// # Safety
+/// Otherwise it must point to a text with a zero at its end.
+pub unsafe fn text<'a>(argument: &'static str, data: Text) -> Result<Cow<'a, str>, Error> {
+    if data.is_null() {
+        return Err(Error::Pointer { argument });
+    }
+    // SAFETY: promised by the caller.
+    Ok(unsafe { CStr::from_ptr(data) }.to_string_lossy())
+}

@@ -1,0 +1,45 @@
+//! The functions for derivatives with respect to time.
+
+use super::{Handle, arguments, c};
+use crate::fmi2::c_types::{Status, ValueReference};
+use crate::fmi2::component;
+use crate::fmi2::model::Model;
+use crate::fmi2::state::Call;
+
+/// `fmi2SetRealInputDerivatives`.
+pub unsafe fn set_real_input_derivatives<M: Model>(
+    handle: Handle,
+    references: *const ValueReference,
+    count: c::Size,
+    orders: *const c::Integer,
+    values: *const c::Real,
+) -> Status {
+    // SAFETY: promised by the caller.
+    unsafe {
+        component::call::<M>(handle, Call::SetRealInputDerivatives, |instance| {
+            let limit = instance.variables().len();
+            let references = arguments::list("vr", references, count, limit)?;
+            let orders = arguments::list("order", orders, count, limit)?;
+            instance.set_input_derivatives(references, orders, arguments::list("value", values, count, limit)?)
+        })
+    }
+}
+
+/// `fmi2GetRealOutputDerivatives`.
+pub unsafe fn get_real_output_derivatives<M: Model>(
+    handle: Handle,
+    references: *const ValueReference,
+    count: c::Size,
+    orders: *const c::Integer,
+    values: *mut c::Real,
+) -> Status {
+    // SAFETY: promised by the caller.
+    unsafe {
+        component::call::<M>(handle, Call::GetRealOutputDerivatives, |instance| {
+            let limit = instance.variables().len();
+            let references = arguments::list("vr", references, count, limit)?;
+            let orders = arguments::list("order", orders, count, limit)?;
+            instance.output_derivatives(references, orders, arguments::list_mut("value", values, count, limit)?)
+        })
+    }
+}

@@ -1,0 +1,141 @@
+//! What hides behind the host's handle, and the one way from a C call into an instance.
+
+use super::c_types::{Component as Handle, Status};
+use super::error::Error;
+use super::hash::fnv1a;
+use super::instance::Instance;
+use super::logger::{Category, Logger};
+use super::model::Model;
+use super::panics;
+use super::state::Call;
+use super::states;
+
+/// An instance and its way to the host's log.
+///
+/// Both are always reached through raw pointers to the single fields: a host may call functions of the
+/// same instance from within its logger.
+#[repr(C)]
+pub struct Component<M: Model> {
+    /// [`Component::MAGIC`] while the component lives.
+    magic: u64,
+    logger: Logger,
+    instance: Instance<M>,
+}
+
+impl<M: Model> Component<M> {
+    /// Marks memory that holds a component of this model, and not that of another library.
+    const MAGIC: u64 = fnv1a(M::IDENTIFIER.as_bytes());
+
+    /// A component in a place of its own; it lives until [`Component::free`].
+    pub fn into_handle(logger: Logger, instance: Instance<M>) -> Handle {
+        Box::into_raw(Box::new(Self { magic: Self::MAGIC, logger, instance })).cast()
+    }
+
+    /// The component behind a handle; `None` if the handle is null or, as far as can be seen, none.
+    ///
+    /// # Safety
+    /// A handle that is neither null nor misaligned must point to readable memory.
+    unsafe fn find(handle: Handle) -> Option<*mut Self> {
+        let this: *mut Self = handle.cast();
+        if this.is_null() || !this.is_aligned() {
+            return None;
+        }
+        // SAFETY: readable by the caller's promise.
+        let magic = unsafe { (&raw const (*this).magic).read_volatile() };
+        (magic == Self::MAGIC).then_some(this)
+    }
+
+    /// Ends the life of a component and of the states that it gave out; anything else is left alone.
+    ///
+    /// # Safety
+    /// Like [`call`]; the handle must not be used again.
+    pub unsafe fn free(handle: Handle) {
+        // SAFETY: promised by the caller.
+        let Some(this) = (unsafe { Self::find(handle) }) else { return };
+        // Nobody can do anything about a destructor that panics.
+        let _ = panics::caught(|| {
+            states::free_all(handle.addr());
+            // SAFETY: alive, as its mark says, and made by `into_handle`. The mark is removed by a write
+            // that cannot be optimised away, so that most uses after this are noticed.
+            unsafe {
+                (&raw mut (*this).magic).write_volatile(0);
+                drop(Box::from_raw(this));
+            }
+        });
+    }
+}
+
+/// Calls `body` with the instance behind the handle. An error, or a panic, is logged with the name of
+/// the call and becomes `fmi2Error`; after a panic the instance has failed. A handle that is none is
+/// `fmi2Error` too, without a message, for there is nobody to tell.
+///
+/// # Safety
+/// The handle must be null or come from `fmi2Instantiate` of this model and not be freed; no other
+/// thread may use it during the call.
+pub unsafe fn call<M: Model>(
+    handle: Handle,
+    call: Call,
+    body: impl FnOnce(&mut Instance<M>) -> Result<(), Error>,
+) -> Status {
+    // SAFETY: promised by the caller.
+    let Some(this) = (unsafe { Component::<M>::find(handle) }) else { return Status::Error };
+    // SAFETY: alive, and only this call uses the instance until `body` returns.
+    let outcome = panics::caught(|| body(unsafe { &mut (*this).instance }));
+    let result = outcome.unwrap_or_else(|message| {
+        // SAFETY: as above.
+        unsafe { &mut (*this).instance }.fail();
+        Err(Error::Panic(message))
+    });
+    // SAFETY: alive; loggers change in `switch_logging` only.
+    conclude(unsafe { &(*this).logger }, call, &result)
+}
+
+/// Like [`call`], and the host hears of a success in the category of events.
+///
+/// # Safety
+/// Like [`call`].
+pub unsafe fn milestone<M: Model>(
+    handle: Handle,
+    call: Call,
+    body: impl FnOnce(&mut Instance<M>) -> Result<(), Error>,
+) -> Status {
+    let mut time = 0.0;
+    // SAFETY: promised by the caller.
+    let status = unsafe {
+        self::call::<M>(handle, call, |instance| {
+            body(instance)?;
+            time = instance.time();
+            Ok(())
+        })
+    };
+    // SAFETY: as above.
+    if let (Status::Ok, Some(this)) = (status, unsafe { Component::<M>::find(handle) }) {
+        // SAFETY: alive.
+        unsafe { &(*this).logger }.log(Category::Events, format_args!("{call} at t = {time} s"));
+    }
+    status
+}
+
+/// Calls `body` with the logger of the instance; otherwise like [`call`].
+///
+/// # Safety
+/// Like [`call`].
+pub unsafe fn switch_logging<M: Model>(handle: Handle, body: impl FnOnce(&mut Logger) -> Result<(), Error>) -> Status {
+    // SAFETY: promised by the caller.
+    let Some(this) = (unsafe { Component::<M>::find(handle) }) else { return Status::Error };
+    // SAFETY: alive, and only this call uses the logger until `body` returns.
+    let outcome = panics::caught(|| body(unsafe { &mut (*this).logger }));
+    let result = outcome.unwrap_or_else(|message| Err(Error::Panic(message)));
+    // SAFETY: alive.
+    conclude(unsafe { &(*this).logger }, Call::SetDebugLogging, &result)
+}
+
+fn conclude(logger: &Logger, call: Call, result: &Result<(), Error>) -> Status {
+    match result {
+        Ok(()) => Status::Ok,
+        Err(error) => {
+            logger.log(Category::StatusError, format_args!("{call}: {error}"));
+            Status::Error
+        }
+    }
+}

@@ -1,0 +1,307 @@
+//! One instance of a model, as the standard sees it, in safe Rust.
+
+use super::error::Error;
+use super::model::{CommunicationStep, Model};
+use super::state::{Call, State};
+use crate::variables::{Causality, Kind, Table, Variability, Variable};
+
+mod derivatives;
+mod saved;
+mod values;
+
+pub use saved::{MOST_BYTES, Saved};
+pub use values::Scalar;
+
+/// Largest gap between the end of a step and the beginning of the next: a microsecond, because hosts
+/// that count time in whole units of their own round. A step is never left out by that.
+const GAP: f64 = 1e-6;
+/// Late times carry the rounding of many additions: this is added to [`GAP`] per second of time.
+const GAP_PER_SECOND: f64 = 1e-12;
+
+/// A unit between instantiation and release. Value references are positions in the model's table.
+///
+/// Every method that returns an error leaves the instance as it was, except a failed
+/// [`Instance::do_step`].
+pub struct Instance<M: Model> {
+    structure: M::Structure,
+    table: Table<M::Data>,
+    now: Situation<M>,
+}
+
+/// All that influences the future of an instance; a saved FMU state is a copy of this.
+#[derive(Clone)]
+struct Situation<M: Model> {
+    state: State,
+    data: M::Data,
+    /// Before the simulation: present only while it agrees with the parameters and inputs in `data`,
+    /// and the outputs in `data` are then right.
+    model: Option<M>,
+    start_time: f64,
+    stop_time: Option<f64>,
+    /// The present communication point.
+    time: f64,
+}
+
+impl<M: Model> Situation<M> {
+    fn new(structure: M::Structure) -> Self {
+        Self {
+            state: State::Instantiated,
+            data: M::start(structure),
+            model: None,
+            start_time: 0.0,
+            stop_time: None,
+            time: 0.0,
+        }
+    }
+}
+
+impl<M: Model> Instance<M> {
+    /// A new instance with start values.
+    #[must_use]
+    pub fn new(structure: M::Structure) -> Self {
+        let mut instance = Self { structure, table: M::table(structure), now: Situation::new(structure) };
+        instance.go_to(0.0);
+        instance
+    }
+
+    /// Where the instance stands.
+    #[must_use]
+    pub fn state(&self) -> State {
+        self.now.state
+    }
+
+    /// Time up to which the simulation went well \[s\].
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.now.time
+    }
+
+    /// The variables; positions are value references.
+    #[must_use]
+    pub fn variables(&self) -> &[Variable<M::Data>] {
+        self.table.variables()
+    }
+
+    /// Checks that a call is allowed now.
+    ///
+    /// # Errors
+    /// If it is not.
+    pub fn permit(&self, call: Call) -> Result<(), Error> {
+        let state = self.now.state;
+        if call.allowed_in(state) { Ok(()) } else { Err(Error::OutOfOrder { call, state }) }
+    }
+
+    /// Gives the simulation up: after this only what [`State::Failed`] allows is possible.
+    pub fn fail(&mut self) {
+        self.now.state = State::Failed;
+    }
+
+    /// Sets start and, if there is one, stop time. May be left out (start at 0) or repeated.
+    ///
+    /// # Errors
+    /// If a time is not finite or they are in the wrong order.
+    pub fn setup_experiment(&mut self, start_time: f64, stop_time: Option<f64>) -> Result<(), Error> {
+        self.permit(Call::SetupExperiment)?;
+        if !start_time.is_finite() {
+            return Err(argument("startTime", "a finite number", start_time));
+        }
+        if let Some(stop_time) = stop_time.filter(|stop| !stop.is_finite() || *stop < start_time) {
+            return Err(argument("stopTime", format!("finite and not before startTime = {start_time}"), stop_time));
+        }
+        self.now.model = None;
+        self.now.start_time = start_time;
+        self.now.stop_time = stop_time;
+        self.go_to(start_time);
+        Ok(())
+    }
+
+    /// Begins initialization.
+    ///
+    /// # Errors
+    /// If the state does not allow it.
+    pub fn enter_initialization(&mut self) -> Result<(), Error> {
+        self.permit(Call::EnterInitializationMode)?;
+        self.now.state = State::Initialization;
+        Ok(())
+    }
+
+    /// Ends initialization: outputs are right, the simulation can begin.
+    ///
+    /// # Errors
+    /// If the parameters do not go together; they can be corrected, and the call repeated.
+    pub fn exit_initialization(&mut self) -> Result<(), Error> {
+        self.permit(Call::ExitInitializationMode)?;
+        self.initialize()?;
+        self.now.state = State::Running;
+        Ok(())
+    }
+
+    /// Makes model and outputs agree with the parameters and inputs, if they do not yet.
+    fn initialize(&mut self) -> Result<(), Error> {
+        if self.now.model.is_some() {
+            return Ok(());
+        }
+        // A copy, so that a failure leaves nothing half-written.
+        let mut data = self.now.data.clone();
+        let model = M::initialize(self.structure, &mut data, self.now.start_time)
+            .map_err(|error| Error::Initialization(error.to_string()))?;
+        self.now.data = data;
+        self.now.model = Some(model);
+        self.go_to(self.now.start_time);
+        Ok(())
+    }
+
+    /// Advances from the communication point `from` by `size`, exactly to `from + size`. A size of 0
+    /// changes nothing.
+    ///
+    /// The last step may end after the stop time, for hosts whose steps do not divide the interval, but
+    /// none begins after it.
+    ///
+    /// # Errors
+    /// If `from` is not where the last step ended, within a microsecond and rounding; if a number
+    /// makes no sense; or if the model fails, and then the instance has failed.
+    pub fn do_step(&mut self, from: f64, size: f64) -> Result<(), Error> {
+        self.permit(Call::DoStep)?;
+        let step = self.checked_step(from, size)?;
+        if size == 0.0 {
+            return Ok(());
+        }
+        let outcome = match &mut self.now.model {
+            Some(model) => model.step(&mut self.now.data, step).map_err(|error| error.to_string()),
+            None => Err("the model is missing".to_owned()),
+        };
+        match outcome {
+            Ok(()) => {
+                self.go_to(step.to());
+                Ok(())
+            }
+            Err(reason) => {
+                self.fail();
+                Err(Error::Step { from, size, reason })
+            }
+        }
+    }
+
+    fn checked_step(&self, from: f64, size: f64) -> Result<CommunicationStep, Error> {
+        let Situation { start_time, stop_time, time, .. } = self.now;
+        let gap = GAP + GAP_PER_SECOND * time.abs();
+        if !from.is_finite() {
+            return Err(argument("currentCommunicationPoint", "a finite number", from));
+        }
+        if !size.is_finite() || size < 0.0 {
+            return Err(argument("communicationStepSize", "a finite number, at least 0", size));
+        }
+        if (from - time).abs() > gap {
+            return Err(Error::Gap { expected: time, found: from });
+        }
+        if let Some(stop_time) = stop_time.filter(|stop| from > stop + gap) {
+            return Err(argument("currentCommunicationPoint", format!("at most stopTime = {stop_time}"), from));
+        }
+        let step = CommunicationStep { start_time, from, size };
+        if step.to().is_finite() { Ok(step) } else { Err(argument("communicationStepSize", "smaller", size)) }
+    }
+
+    /// Ends the simulation; harmless if it has ended already.
+    ///
+    /// # Errors
+    /// If it has not begun.
+    pub fn terminate(&mut self) -> Result<(), Error> {
+        self.permit(Call::Terminate)?;
+        self.now.state = State::Terminated;
+        Ok(())
+    }
+
+    /// Makes the instance as new, in any state.
+    pub fn reset(&mut self) {
+        self.now = Situation::new(self.structure);
+        self.go_to(0.0);
+    }
+
+    /// Reads variables. Before the simulation, outputs are those that initialization would give.
+    ///
+    /// # Errors
+    /// If a reference is unknown, a variable cannot be read as `T`, or an output is asked for while the
+    /// parameters do not go together.
+    pub fn get<T: Scalar>(&mut self, references: &[u32], values: &mut [T]) -> Result<(), Error> {
+        self.permit(T::GET)?;
+        let variables = self.table.variables();
+        let is_output = |reference: &u32| {
+            lookup(variables, *reference).is_ok_and(|variable| variable.causality == Causality::Output)
+        };
+        if self.now.state.precedes_simulation() && references.iter().any(is_output) {
+            self.initialize()?;
+        }
+        for (reference, value) in references.iter().zip(values) {
+            let variable = lookup(self.table.variables(), *reference)?;
+            *value = T::read(variable, &mut self.now.data)?;
+        }
+        Ok(())
+    }
+
+    /// Sets parameters and inputs: all of them, or none if one is refused.
+    ///
+    /// # Errors
+    /// If a reference is unknown, a variable cannot be set (now, or at all, or as `T`), or a value is
+    /// not admissible.
+    pub fn set<T: Scalar>(&mut self, references: &[u32], values: &[T]) -> Result<(), Error> {
+        self.permit(T::SET)?;
+        for (reference, value) in references.iter().zip(values) {
+            let variable = settable(self.table.variables(), *reference, self.now.state)?;
+            value.admit(variable, &mut self.now.data)?;
+        }
+        for (reference, value) in references.iter().zip(values) {
+            let variable = lookup(self.table.variables(), *reference)?;
+            value.admit(variable, &mut self.now.data)?.assign(variable, &mut self.now.data);
+        }
+        if self.now.state.precedes_simulation() && !references.is_empty() {
+            self.now.model = None;
+        }
+        Ok(())
+    }
+
+    /// Answers a call that reads or writes text: there are no variables of type String.
+    ///
+    /// # Errors
+    /// If there is any reference.
+    pub fn no_text(&self, call: Call, references: &[u32]) -> Result<(), Error> {
+        self.permit(call)?;
+        references.iter().try_for_each(|reference| {
+            let variable = lookup(self.table.variables(), *reference)?;
+            Err(values::mismatch(variable, "String"))
+        })
+    }
+
+    /// Moves to a communication point, and the independent variable with it.
+    fn go_to(&mut self, time: f64) {
+        self.now.time = time;
+        let clock = self.table.variables().iter().find(|variable| variable.causality == Causality::Independent);
+        if let Some(Variable { kind: Kind::Real { at, .. }, index, .. }) = clock {
+            *at(&mut self.now.data, *index) = time;
+        }
+    }
+}
+
+fn lookup<D>(variables: &[Variable<D>], reference: u32) -> Result<&Variable<D>, Error> {
+    let found = usize::try_from(reference).ok().and_then(|position| variables.get(position));
+    found.ok_or(Error::UnknownReference { reference, count: variables.len() })
+}
+
+/// The variable with this reference, if its causality and variability allow that it is set in `state`.
+fn settable<D>(variables: &[Variable<D>], reference: u32, state: State) -> Result<&Variable<D>, Error> {
+    let variable = lookup(variables, reference)?;
+    let name = || variable.name.clone();
+    let too_late = variable.variability == Variability::Fixed && !state.precedes_simulation();
+    match variable.causality {
+        Causality::Output => Err(Error::ReadOnly { name: name(), role: "an output" }),
+        Causality::Independent => Err(Error::ReadOnly { name: name(), role: "the independent variable" }),
+        Causality::Parameter if too_late => Err(Error::Fixed { name: name() }),
+        Causality::Parameter | Causality::Input => Ok(variable),
+    }
+}
+
+fn argument(argument: &'static str, expected: impl Into<String>, found: f64) -> Error {
+    Error::Argument { argument, expected: expected.into(), found: found.to_string() }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,150 @@
+//! Saved states, in memory and as bytes.
+//!
+//! ```text
+//! FMI 2.0 state, format 1, uam_plant 0.1.0 {299d1a1b-...}\n    what it belongs to
+//! length of the content                       8 bytes, little endian
+//! content
+//! checksum of all that                        8 bytes, little endian
+//! zeros, if the host has more room
+//! ```
+
+use super::{Instance, Situation};
+use crate::bytes;
+use crate::fmi2::error::Error;
+use crate::fmi2::hash::fnv1a;
+use crate::fmi2::identity::Guid;
+use crate::fmi2::model::Model;
+use crate::fmi2::state::Call;
+use crate::variables::{Causality, Kind};
+
+/// Number of the layout of the bytes.
+const FORMAT: u32 = 1;
+
+/// Longest simulation that is believed \[s\]: centuries.
+const LONGEST: f64 = 1e10;
+
+/// More bytes than this are no state.
+pub const MOST_BYTES: usize = 1 << 20;
+
+/// A copy of all that influences the future of an instance.
+pub struct Saved<M: Model> {
+    structure: M::Structure,
+    then: Situation<M>,
+}
+
+impl<M: Model> Instance<M> {
+    /// The present state.
+    ///
+    /// # Errors
+    /// If the state machine does not allow it.
+    pub fn save(&self) -> Result<Saved<M>, Error> {
+        self.permit(Call::GetFMUstate)?;
+        Ok(Saved { structure: self.structure, then: self.now.clone() })
+    }
+
+    /// Goes on from a saved state, also that of another instance.
+    ///
+    /// # Errors
+    /// If it belongs to an instance of another structure.
+    pub fn restore(&mut self, saved: &Saved<M>) -> Result<(), Error> {
+        self.permit(Call::SetFMUstate)?;
+        if saved.structure != self.structure {
+            return Err(Error::OtherStructure {
+                expected: self.structure.to_string(),
+                found: saved.structure.to_string(),
+            });
+        }
+        self.now.clone_from(&saved.then);
+        Ok(())
+    }
+
+    /// The state that bytes describe, for this instance or another of its structure.
+    ///
+    /// # Errors
+    /// If they are not what [`Saved::to_bytes`] gave for this unit and structure.
+    pub fn read_saved(&self, bytes: &[u8]) -> Result<Saved<M>, Error> {
+        self.permit(Call::DeSerializeFMUstate)?;
+        let content = unwrap(&title::<M>(self.structure), bytes)?;
+        let then = self.read_situation(content).map_err(|reason| Error::Content { reason })?;
+        Ok(Saved { structure: self.structure, then })
+    }
+
+    fn read_situation(&self, mut content: &[u8]) -> Result<Situation<M>, String> {
+        let text = |error: crate::error::Error| error.to_string();
+        let (state, mut data, start_time, stop_time, time, has_model): (_, M::Data, f64, Option<f64>, f64, bool) =
+            bytes::read(&mut content).map_err(text)?;
+        let elapsed = time - start_time;
+        if !(time.is_finite() && elapsed.abs() <= LONGEST) || stop_time.is_some_and(|stop| !stop.is_finite()) {
+            return Err(format!("the times {start_time}, {time} and {stop_time:?} do not go together"));
+        }
+        for variable in self.table.variables() {
+            if let (Causality::Parameter | Causality::Input, Kind::Real { bounds, at, .. }) =
+                (variable.causality, variable.kind)
+            {
+                let found = *at(&mut data, variable.index);
+                if !bounds.admit(found) {
+                    return Err(format!("{} must be {bounds}, but is {found}", variable.name));
+                }
+            }
+        }
+        let model = if has_model {
+            Some(M::restore(self.structure, &data, &mut content).map_err(|error| error.to_string())?)
+        } else {
+            None
+        };
+        if content.is_empty() {
+            Ok(Situation { state, data, model, start_time, stop_time, time })
+        } else {
+            Err(format!("{} bytes are too many", content.len()))
+        }
+    }
+}
+
+impl<M: Model> Saved<M> {
+    /// The state as bytes that outlive the process.
+    ///
+    /// # Errors
+    /// If the model cannot write itself.
+    pub fn to_bytes(&self) -> Result<Vec<u8>, Error> {
+        let content = self.content().map_err(|reason| Error::Content { reason })?;
+        let mut all = title::<M>(self.structure).into_bytes();
+        all.extend((content.len() as u64).to_le_bytes());
+        all.extend(content);
+        all.extend(fnv1a(&all).to_le_bytes());
+        Ok(all)
+    }
+
+    fn content(&self) -> Result<Vec<u8>, String> {
+        let Situation { state, data, model, start_time, stop_time, time } = &self.then;
+        let mut content = Vec::new();
+        bytes::write(&(state, data, start_time, stop_time, time, model.is_some()), &mut content)
+            .map_err(|error| error.to_string())?;
+        model.as_ref().map_or(Ok(()), |model| model.save(&mut content)).map_err(|error| error.to_string())?;
+        Ok(content)
+    }
+}
+
+/// What every state of this structure begins with.
+fn title<M: Model>(structure: M::Structure) -> String {
+    let (name, version, guid) = (M::IDENTIFIER, env!("CARGO_PKG_VERSION"), Guid::of::<M>(structure));
+    format!("FMI 2.0 state, format {FORMAT}, {name} {version} {guid}\n")
+}
+
+/// The content of bytes that are complete and belong to `title`.
+fn unwrap<'a>(title: &str, bytes: &'a [u8]) -> Result<&'a [u8], Error> {
+    let Some(rest) = bytes.strip_prefix(title.as_bytes()) else {
+        let beginning = bytes.get(..title.len()).unwrap_or(bytes);
+        return Err(Error::ForeignBytes {
+            expected: title.trim_end().to_owned(),
+            found: String::from_utf8_lossy(beginning).trim_end().escape_debug().to_string(),
+        });
+    };
+    let damaged = || Error::Damaged { count: bytes.len() };
+    let (length, rest) = rest.split_first_chunk().ok_or_else(damaged)?;
+    let length = usize::try_from(u64::from_le_bytes(*length)).map_err(|_| damaged())?;
+    let (content, rest) = rest.split_at_checked(length).ok_or_else(damaged)?;
+    let (checksum, rest) = rest.split_first_chunk().ok_or_else(damaged)?;
+    let covered = &bytes[..bytes.len() - rest.len() - checksum.len()];
+    let whole = u64::from_le_bytes(*checksum) == fnv1a(covered) && rest.iter().all(|byte| *byte == 0);
+    if whole { Ok(content) } else { Err(damaged()) }
+}

@@ -1,0 +1,89 @@
+//! What a type must offer to be exported as a co-simulation unit.
+
+use std::fmt::{Debug, Display};
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use crate::variables::Table;
+
+/// One call of doStep, in the host's time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CommunicationStep {
+    /// Time at which the simulation started \[s\].
+    pub start_time: f64,
+    /// Time at the beginning of the step \[s\].
+    pub from: f64,
+    /// Length of the step, not negative \[s\].
+    pub size: f64,
+}
+
+impl CommunicationStep {
+    /// Time at the end of the step \[s\].
+    #[must_use]
+    pub fn to(&self) -> f64 {
+        self.from + self.size
+    }
+}
+
+/// A simulation that advances from one communication point to the next.
+///
+/// The host sees plain data, `Self::Data`: parameters, inputs and outputs, named by [`Model::table`].
+/// Inputs and tunable parameters may change between steps; a step reads them and writes the outputs.
+/// Setting an input changes no output before the next step.
+pub trait Model: Clone + Send + Sized + 'static {
+    /// Model identifier: name of the FMU and of the libraries in it.
+    const IDENTIFIER: &'static str;
+    /// One sentence on what the unit does.
+    const DESCRIPTION: &'static str;
+    /// Part of the unit's identity: counts changes of meaning that its table of variables does not show.
+    const INTERFACE_VERSION: u32 = 1;
+
+    /// What is chosen when an FMU is built and fixes its variables.
+    type Structure: Copy + PartialEq + Debug + Display + Send + Sync + 'static;
+    /// Parameters, inputs and outputs.
+    type Data: Clone + Send + Serialize + DeserializeOwned + 'static;
+    /// What can go wrong; the text goes to the host's logger.
+    type Error: Display;
+
+    /// All structures that the binary serves, the default first.
+    fn structures() -> impl Iterator<Item = Self::Structure>;
+
+    /// The variables of a structure, the independent variable first; a variable's position in the
+    /// table is its value reference.
+    fn table(structure: Self::Structure) -> Table<Self::Data>;
+
+    /// The data with all start values.
+    fn start(structure: Self::Structure) -> Self::Data;
+
+    /// Sets up a simulation from the parameters in `data` and writes the initial outputs.
+    ///
+    /// # Errors
+    /// If the parameters do not go together.
+    fn initialize(structure: Self::Structure, data: &mut Self::Data, start_time: f64) -> Result<Self, Self::Error>;
+
+    /// Advances by one communication step: reads inputs and tunable parameters, writes outputs.
+    ///
+    /// # Errors
+    /// If the simulation cannot go on; it is not stepped again then.
+    fn step(&mut self, data: &mut Self::Data, step: CommunicationStep) -> Result<(), Self::Error>;
+
+    /// Writes those derivatives of outputs into `data` that the last step did not, for the present time,
+    /// `elapsed` since the start \[s\].
+    fn differentiate(&self, data: &mut Self::Data, elapsed: f64) {
+        let _ = (data, elapsed);
+    }
+
+    /// Appends to `bytes` all that influences the future beside the data.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    fn save(&self, bytes: &mut Vec<u8>) -> Result<(), Self::Error>;
+
+    /// The simulation that [`Model::save`] wrote, from the front of `bytes`, which may be wrong; `data` is
+    /// what went with it, parameters and inputs within their bounds.
+    ///
+    /// # Errors
+    /// If data and bytes are not those of a simulation. None that comes back may panic or hang later.
+    fn restore(structure: Self::Structure, data: &Self::Data, bytes: &mut &[u8]) -> Result<Self, Self::Error>;
+}

@@ -1,0 +1,53 @@
+//! Saved FMU states in the hands of hosts.
+//!
+//! A host holds a state by an address, but nothing is ever read from there: all states that are alive stand
+//! in a list. So whatever a host hands over that is no state, or none any more, is noticed and does no harm.
+
+use std::any::Any;
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use super::c_types::FmuState;
+
+/// A state of any unit.
+type Shared = Arc<Mutex<dyn Any + Send>>;
+
+struct Entry {
+    state: Shared,
+    /// The instance with whose end the state ends.
+    owner: usize,
+}
+
+/// By the addresses of the states, which are unique among all libraries of a process.
+static ALIVE: Mutex<BTreeMap<usize, Entry>> = Mutex::new(BTreeMap::new());
+
+/// Nothing is left half-changed under the lock, so a panic of another thread does no harm.
+fn lock<T: ?Sized>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Keeps a state until [`free`], or the end of its `owner`.
+pub fn keep<T: Send + 'static>(state: T, owner: usize) -> FmuState {
+    let state: Shared = Arc::new(Mutex::new(state));
+    let handle: FmuState = Arc::as_ptr(&state).cast_mut().cast();
+    lock(&ALIVE).insert(handle.addr(), Entry { state, owner });
+    handle
+}
+
+/// Calls `body` with the state behind a handle; `None` if there is none of this type.
+pub fn with<T: 'static, R>(handle: FmuState, body: impl FnOnce(&mut T) -> R) -> Option<R> {
+    let state = lock(&ALIVE).get(&handle.addr()).map(|entry| Arc::clone(&entry.state))?;
+    let mut state = lock(&state);
+    state.downcast_mut().map(body)
+}
+
+/// Ends the life of a state; `false` if there is none of this type.
+pub fn free<T: 'static>(handle: FmuState) -> bool {
+    let known = with::<T, _>(handle, |_| ()).is_some();
+    known && lock(&ALIVE).remove(&handle.addr()).is_some()
+}
+
+/// Ends the life of all states of an owner.
+pub fn free_all(owner: usize) {
+    lock(&ALIVE).retain(|_, entry| entry.owner != owner);
+}

@@ -1,0 +1,316 @@
+//! `uam_controller`: the inverse kinematics as a co-simulation unit.
+
+mod derivatives;
+
+use serde::{Deserialize, Serialize};
+
+use super::declare_time;
+use crate::controller::{self, Inputs, Outputs, Rates};
+use crate::error::Error;
+use crate::fmi2::{CommunicationStep, Model};
+use crate::parameters::{self, Parameters, Structure};
+use crate::scenarios;
+use crate::unit;
+use crate::variables::{Bounds, Causality, Table, Variability};
+
+/// All that the host sees of the controller.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Data {
+    /// Independent variable \[s\].
+    pub time: f64,
+    /// Parameters.
+    pub parameters: Parameters,
+    /// Inputs.
+    pub inputs: Inputs,
+    /// Outputs.
+    pub outputs: Outputs,
+    /// Derivatives of outputs, where no other output is that; see [`Model::differentiate`].
+    pub rates: Rates,
+}
+
+impl AsMut<Parameters> for Data {
+    fn as_mut(&mut self) -> &mut Parameters {
+        &mut self.parameters
+    }
+}
+
+/// The controller unit.
+#[derive(Clone)]
+pub struct ControllerUnit(Box<dyn controller::Planner>);
+
+impl Model for ControllerUnit {
+    const IDENTIFIER: &'static str = "uam_controller";
+    const DESCRIPTION: &'static str =
+        "Inverse kinematics of an aerial manipulator: joint rates that follow a path although the hovering base reacts";
+
+    const INTERFACE_VERSION: u32 = super::INTERFACE_VERSION;
+
+    type Structure = Structure;
+    type Data = Data;
+    type Error = Error;
+
+    fn structures() -> impl Iterator<Item = Structure> {
+        Structure::all()
+    }
+
+    fn table(structure: Structure) -> Table<Data> {
+        let mut table = Table::default();
+        declare_time(&mut table, |d: &mut Data, _| &mut d.time);
+        parameters::declare_shared(&mut table, structure);
+        parameters::declare_controller(&mut table, structure);
+        declare_inputs(&mut table);
+        declare_outputs(&mut table, structure);
+        table.differentiate(derivatives::ALL);
+        table
+    }
+
+    fn start(structure: Structure) -> Data {
+        Data {
+            time: 0.0,
+            parameters: scenarios::default_parameters(structure),
+            inputs: Inputs::default(),
+            outputs: Outputs::default(),
+            rates: Rates::default(),
+        }
+    }
+
+    fn initialize(structure: Structure, data: &mut Data, _start_time: f64) -> Result<Self, Error> {
+        Ok(Self(controller::new(structure, &data.parameters, &mut data.outputs)?))
+    }
+
+    fn step(&mut self, data: &mut Data, step: CommunicationStep) -> Result<(), Error> {
+        self.0.step(&data.parameters, &data.inputs, step.from - step.start_time, step.size, &mut data.outputs)
+    }
+
+    fn differentiate(&self, data: &mut Data, elapsed: f64) {
+        data.rates = self.0.rates(&data.inputs, elapsed);
+    }
+
+    fn save(&self, bytes: &mut Vec<u8>) -> Result<(), Error> {
+        self.0.save(bytes)
+    }
+
+    fn restore(structure: Structure, data: &Data, bytes: &mut &[u8]) -> Result<Self, Error> {
+        let mut planner = controller::without_plan(structure, &data.parameters)?;
+        planner.restore(bytes)?;
+        Ok(Self(planner))
+    }
+}
+
+fn declare_inputs(table: &mut Table<Data>) {
+    table
+        .group(Causality::Input, Variability::Continuous)
+        .real(
+            "external_reference.x",
+            &unit::METRE,
+            Bounds::ANY,
+            "Wanted position of the end effector, to the right",
+            |d, _| &mut d.inputs.position.x,
+        )
+        .real(
+            "external_reference.y",
+            &unit::METRE,
+            Bounds::ANY,
+            "Wanted position of the end effector, upwards",
+            |d, _| &mut d.inputs.position.y,
+        )
+        .real(
+            "external_reference.vx",
+            &unit::METRE_PER_SECOND,
+            Bounds::ANY,
+            "Wanted velocity of the end effector, to the right",
+            |d, _| &mut d.inputs.velocity.x,
+        )
+        .real(
+            "external_reference.vy",
+            &unit::METRE_PER_SECOND,
+            Bounds::ANY,
+            "Wanted velocity of the end effector, upwards",
+            |d, _| &mut d.inputs.velocity.y,
+        )
+        .real(
+            "external_reference.ax",
+            &unit::METRE_PER_SECOND2,
+            Bounds::ANY,
+            "Wanted acceleration of the end effector, to the right",
+            |d, _| &mut d.inputs.acceleration.x,
+        )
+        .real(
+            "external_reference.ay",
+            &unit::METRE_PER_SECOND2,
+            Bounds::ANY,
+            "Wanted acceleration of the end effector, upwards",
+            |d, _| &mut d.inputs.acceleration.y,
+        );
+}
+
+/// Parameters that decide where things are at the start.
+const GEOMETRY: &[&str] = &["mount", "link.length", "joint.start"];
+/// Parameters that decide the first plan.
+const PLAN: &[&str] = &[
+    "gravity",
+    "uav",
+    "mount",
+    "link",
+    "joint",
+    "counterweight",
+    "autopilot",
+    "payload",
+    "support",
+    "sample_time",
+    "ik",
+    "reference",
+];
+
+fn declare_outputs(table: &mut Table<Data>, structure: Structure) {
+    for i in 0..structure.links {
+        let n = i + 1;
+        table.output().at(i).initially_from(PLAN).real(
+            format!("joint[{n}].rate_command"),
+            &unit::RADIAN_PER_SECOND,
+            Bounds::ANY,
+            format!("Rate for joint {n} until the next communication point"),
+            |d, i| &mut d.outputs.rate_command[i],
+        );
+    }
+    if structure.counterweight {
+        table.output().at(structure.links).initially_from(PLAN).real(
+            "counterweight.rate_command",
+            &unit::METRE_PER_SECOND,
+            Bounds::ANY,
+            "Rate for the counterweight until the next communication point; both resolutions hold it still",
+            |d, i| &mut d.outputs.rate_command[i],
+        );
+    }
+    table.group(Causality::Output, Variability::Discrete).initially_from(&["payload.grasp_time"]).boolean(
+        "grasp",
+        "Whether the payload is to be held",
+        |d, _| &mut d.outputs.grasp,
+    );
+    table
+        .output()
+        .initially_from(GEOMETRY)
+        .real(
+            "reference.x",
+            &unit::METRE,
+            Bounds::ANY,
+            "Wanted position of the end effector now, to the right",
+            |d, _| &mut d.outputs.reference.x,
+        )
+        .real("reference.y", &unit::METRE, Bounds::ANY, "Wanted position of the end effector now, upwards", |d, _| {
+            &mut d.outputs.reference.y
+        });
+    table
+        .output()
+        .real(
+            "reference.vx",
+            &unit::METRE_PER_SECOND,
+            Bounds::ANY,
+            "Wanted velocity of the end effector now, to the right",
+            |d, _| &mut d.outputs.reference_velocity.x,
+        )
+        .real(
+            "reference.vy",
+            &unit::METRE_PER_SECOND,
+            Bounds::ANY,
+            "Wanted velocity of the end effector now, upwards",
+            |d, _| &mut d.outputs.reference_velocity.y,
+        );
+    table
+        .output()
+        .real("predicted.base.x", &unit::METRE, Bounds::ANY, "Predicted position of the UAV, to the right", |d, _| {
+            &mut d.outputs.predicted_pose.x
+        })
+        .real("predicted.base.y", &unit::METRE, Bounds::ANY, "Predicted position of the UAV, upwards", |d, _| {
+            &mut d.outputs.predicted_pose.y
+        })
+        .real("predicted.base.roll", &unit::RADIAN, Bounds::ANY, "Predicted roll of the UAV", |d, _| {
+            &mut d.outputs.predicted_pose.z
+        })
+        .real(
+            "predicted.base.vx",
+            &unit::METRE_PER_SECOND,
+            Bounds::ANY,
+            "Predicted velocity of the UAV, to the right",
+            |d, _| &mut d.outputs.predicted_velocity.x,
+        )
+        .real(
+            "predicted.base.vy",
+            &unit::METRE_PER_SECOND,
+            Bounds::ANY,
+            "Predicted velocity of the UAV, upwards",
+            |d, _| &mut d.outputs.predicted_velocity.y,
+        )
+        .real(
+            "predicted.base.roll_rate",
+            &unit::RADIAN_PER_SECOND,
+            Bounds::ANY,
+            "Predicted angular velocity of the UAV",
+            |d, _| &mut d.outputs.predicted_velocity.z,
+        );
+    table
+        .output()
+        .initially_from(GEOMETRY)
+        .real(
+            "predicted.end_effector.x",
+            &unit::METRE,
+            Bounds::ANY,
+            "Predicted position of the end effector, to the right",
+            |d, _| &mut d.outputs.predicted_end_effector.x,
+        )
+        .real(
+            "predicted.end_effector.y",
+            &unit::METRE,
+            Bounds::ANY,
+            "Predicted position of the end effector, upwards",
+            |d, _| &mut d.outputs.predicted_end_effector.y,
+        );
+    for i in 0..structure.links {
+        let n = i + 1;
+        table.output().at(i).initially_from(&["joint.start"]).real(
+            format!("predicted.joint[{n}].position"),
+            &unit::RADIAN,
+            Bounds::ANY,
+            format!("Predicted angle of joint {n}"),
+            |d, i| &mut d.outputs.predicted_position[i],
+        );
+    }
+    if structure.counterweight {
+        table.output().at(structure.links).initially_from(&["counterweight.start"]).real(
+            "predicted.counterweight.position",
+            &unit::METRE,
+            Bounds::ANY,
+            "Predicted position of the counterweight",
+            |d, i| &mut d.outputs.predicted_position[i],
+        );
+    }
+    table.group(Causality::Output, Variability::Discrete).initially_from(PLAN).choice(
+        "ik.status",
+        "How the present rates came about",
+        |d, _| &mut d.outputs.status,
+    );
+    table
+        .output()
+        .initially_from(PLAN)
+        .real(
+            "ik.min_singular_value",
+            &unit::METRE,
+            Bounds::ANY,
+            "Smallest singular value of the generalized Jacobian of the end effector's position",
+            |d, _| &mut d.outputs.min_singular_value,
+        )
+        .real(
+            "ik.velocity_residual",
+            &unit::METRE_PER_SECOND,
+            Bounds::ANY,
+            "How far the present rates miss the wanted mean velocity of the end effector",
+            |d, _| &mut d.outputs.velocity_residual,
+        )
+        .real(
+            "ik.moment_residual",
+            &unit::NEWTON_METRE,
+            Bounds::ANY,
+            "Predicted mean moment that arm, payload and counterweight exert on the UAV under the present rates",
+            |d, _| &mut d.outputs.moment_residual,
+        );
+}

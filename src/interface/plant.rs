@@ -1,0 +1,470 @@
+//! `uam_plant`: the multibody system as a co-simulation unit.
+
+mod derivatives;
+
+use serde::{Deserialize, Serialize};
+
+use super::declare_time;
+use crate::error::Error;
+use crate::fmi2::{CommunicationStep, Model};
+use crate::parameters::{self, Parameters, Structure};
+use crate::plant::{self, Inputs, Outputs, Rates};
+use crate::scenarios;
+use crate::unit;
+use crate::variables::{Bounds, Causality, Table, Variability};
+
+/// All that the host sees of the plant.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Data {
+    /// Independent variable \[s\].
+    pub time: f64,
+    /// Parameters; those of the controller are ignored.
+    pub parameters: Parameters,
+    /// Inputs.
+    pub inputs: Inputs,
+    /// Outputs.
+    pub outputs: Outputs,
+    /// Derivatives of outputs, where no other output is that; see [`Model::differentiate`].
+    pub rates: Rates,
+}
+
+impl AsMut<Parameters> for Data {
+    fn as_mut(&mut self) -> &mut Parameters {
+        &mut self.parameters
+    }
+}
+
+/// The plant unit.
+#[derive(Clone)]
+pub struct PlantUnit(Box<dyn plant::Simulation>);
+
+impl Model for PlantUnit {
+    const IDENTIFIER: &'static str = "uam_plant";
+    const DESCRIPTION: &'static str = "Planar aerial manipulator: multicopter in hover with an arm of imposed joint rates, payload and elastic support";
+
+    const INTERFACE_VERSION: u32 = super::INTERFACE_VERSION;
+
+    type Structure = Structure;
+    type Data = Data;
+    type Error = Error;
+
+    fn structures() -> impl Iterator<Item = Structure> {
+        Structure::all()
+    }
+
+    fn table(structure: Structure) -> Table<Data> {
+        let mut table = Table::default();
+        declare_time(&mut table, |d: &mut Data, _| &mut d.time);
+        parameters::declare_shared(&mut table, structure);
+        declare_inputs(&mut table, structure);
+        declare_outputs(&mut table, structure);
+        table.differentiate(derivatives::ALL);
+        table
+    }
+
+    fn start(structure: Structure) -> Data {
+        Data {
+            time: 0.0,
+            parameters: scenarios::default_parameters(structure),
+            inputs: Inputs::default(),
+            outputs: Outputs::default(),
+            rates: Rates::default(),
+        }
+    }
+
+    fn initialize(structure: Structure, data: &mut Data, _start_time: f64) -> Result<Self, Error> {
+        let simulation = plant::new(structure, &data.parameters)?;
+        simulation.initial_outputs(&mut data.outputs);
+        Ok(Self(simulation))
+    }
+
+    fn step(&mut self, data: &mut Data, step: CommunicationStep) -> Result<(), Error> {
+        let t = step.from - step.start_time;
+        self.0.step(&data.parameters, &data.inputs, t, step.size, &mut data.outputs)?;
+        // They were for this step only.
+        data.inputs.slopes = None;
+        Ok(())
+    }
+
+    fn differentiate(&self, data: &mut Data, _: f64) {
+        data.rates = self.0.rates();
+    }
+
+    fn save(&self, bytes: &mut Vec<u8>) -> Result<(), Error> {
+        self.0.save(bytes)
+    }
+
+    fn restore(structure: Structure, data: &Data, bytes: &mut &[u8]) -> Result<Self, Error> {
+        let mut simulation = plant::new(structure, &data.parameters)?;
+        simulation.restore(bytes)?;
+        Ok(Self(simulation))
+    }
+}
+
+fn declare_inputs(table: &mut Table<Data>, structure: Structure) {
+    for i in 0..structure.links {
+        let n = i + 1;
+        table
+            .input()
+            .at(i)
+            .real(
+                format!("joint[{n}].rate_command"),
+                &unit::RADIAN_PER_SECOND,
+                Bounds::ANY,
+                format!("Rate of joint {n} from the beginning of the communication step"),
+                |d, i| &mut d.inputs.rate_command[i],
+            )
+            .real(
+                format!("joint[{n}].acceleration_command"),
+                &unit::RADIAN_PER_SECOND2,
+                Bounds::ANY,
+                format!("Slope of the rate of joint {n} within the communication step; 0: zero-order hold"),
+                |d, i| &mut d.inputs.acceleration_command[i],
+            );
+    }
+    if structure.counterweight {
+        table
+            .input()
+            .at(structure.links)
+            .real(
+                "counterweight.rate_command",
+                &unit::METRE_PER_SECOND,
+                Bounds::ANY,
+                "Rate of the counterweight from the beginning of the communication step",
+                |d, i| &mut d.inputs.rate_command[i],
+            )
+            .real(
+                "counterweight.acceleration_command",
+                &unit::METRE_PER_SECOND2,
+                Bounds::ANY,
+                "Slope of the counterweight's rate within the communication step; 0: zero-order hold",
+                |d, i| &mut d.inputs.acceleration_command[i],
+            );
+    }
+    table.group(Causality::Input, Variability::Discrete).boolean(
+        "grasp",
+        "Rising edge, or true in the first step: the payload is taken over at rest; falling edge: it is let go",
+        |d, _| &mut d.inputs.grasp,
+    );
+    table
+        .input()
+        .real("autopilot.altitude_reference", &unit::METRE, Bounds::ANY, "Wanted altitude of the UAV", |d, _| {
+            &mut d.inputs.altitude_reference
+        })
+        .real("autopilot.roll_reference", &unit::RADIAN, Bounds::ANY, "Wanted roll of the UAV", |d, _| {
+            &mut d.inputs.roll_reference
+        })
+        .real(
+            "autopilot.thrust_feedforward",
+            &unit::NEWTON,
+            Bounds::ANY,
+            "Added to the thrust of the pid autopilot",
+            |d, _| &mut d.inputs.thrust_feedforward,
+        )
+        .real("autopilot.thrust_command", &unit::NEWTON, Bounds::ANY, "Thrust, if the autopilot is external", |d, _| {
+            &mut d.inputs.thrust_command
+        })
+        .real(
+            "autopilot.torque_command",
+            &unit::NEWTON_METRE,
+            Bounds::ANY,
+            "Torque on the UAV, if the autopilot is external",
+            |d, _| &mut d.inputs.torque_command,
+        )
+        .real(
+            "base.external_force_x",
+            &unit::NEWTON,
+            Bounds::ANY,
+            "External force on the UAV at its centre of mass, to the right",
+            |d, _| &mut d.inputs.base_force.x,
+        )
+        .real(
+            "base.external_force_y",
+            &unit::NEWTON,
+            Bounds::ANY,
+            "External force on the UAV at its centre of mass, upwards",
+            |d, _| &mut d.inputs.base_force.y,
+        )
+        .real("base.external_torque", &unit::NEWTON_METRE, Bounds::ANY, "External torque on the UAV", |d, _| {
+            &mut d.inputs.base_torque
+        })
+        .real(
+            "end_effector.external_force_x",
+            &unit::NEWTON,
+            Bounds::ANY,
+            "External force on the end effector, to the right",
+            |d, _| &mut d.inputs.end_effector_force.x,
+        )
+        .real(
+            "end_effector.external_force_y",
+            &unit::NEWTON,
+            Bounds::ANY,
+            "External force on the end effector, upwards",
+            |d, _| &mut d.inputs.end_effector_force.y,
+        )
+        .real(
+            "end_effector.external_torque",
+            &unit::NEWTON_METRE,
+            Bounds::ANY,
+            "External torque on the last link",
+            |d, _| &mut d.inputs.end_effector_torque,
+        );
+}
+
+/// Parameters that decide where things are at the start.
+const GEOMETRY: &[&str] = &["mount", "link.length", "joint.start"];
+/// Parameters that decide where masses are at the start, without the payload.
+const MASSES: &[&str] = &[
+    "uav.mass",
+    "mount",
+    "link.mass",
+    "link.length",
+    "link.com",
+    "joint.start",
+    "counterweight.mass",
+    "counterweight.start",
+    "counterweight.height",
+];
+/// Parameters that decide what holds the vehicle at rest.
+const HOVER: &[&str] = &[
+    "gravity",
+    "autopilot.mode",
+    "uav.mass",
+    "mount",
+    "link.mass",
+    "link.length",
+    "link.com",
+    "joint.start",
+    "counterweight.mass",
+    "counterweight.start",
+];
+/// Parameters that decide the moment of what the UAV carries at rest.
+const CARRIED: &[&str] = &[
+    "gravity",
+    "mount",
+    "link.mass",
+    "link.length",
+    "link.com",
+    "joint.start",
+    "counterweight.mass",
+    "counterweight.start",
+];
+/// Parameters that decide the torques that hold the joints at rest.
+const JOINTS: &[&str] = &["gravity", "link.mass", "link.length", "link.com", "joint.start"];
+
+fn declare_outputs(table: &mut Table<Data>, structure: Structure) {
+    table
+        .output()
+        .real("base.x", &unit::METRE, Bounds::ANY, "Position of the UAV's centre of mass, to the right", |d, _| {
+            &mut d.outputs.pose.x
+        })
+        .real("base.y", &unit::METRE, Bounds::ANY, "Position of the UAV's centre of mass, upwards", |d, _| {
+            &mut d.outputs.pose.y
+        })
+        .real("base.roll", &unit::RADIAN, Bounds::ANY, "Roll of the UAV, counter-clockwise", |d, _| {
+            &mut d.outputs.pose.z
+        })
+        .real(
+            "base.vx",
+            &unit::METRE_PER_SECOND,
+            Bounds::ANY,
+            "Velocity of the UAV's centre of mass, to the right",
+            |d, _| &mut d.outputs.velocity.x,
+        )
+        .real(
+            "base.vy",
+            &unit::METRE_PER_SECOND,
+            Bounds::ANY,
+            "Velocity of the UAV's centre of mass, upwards",
+            |d, _| &mut d.outputs.velocity.y,
+        )
+        .real("base.roll_rate", &unit::RADIAN_PER_SECOND, Bounds::ANY, "Angular velocity of the UAV", |d, _| {
+            &mut d.outputs.velocity.z
+        })
+        .real(
+            "base.ax",
+            &unit::METRE_PER_SECOND2,
+            Bounds::ANY,
+            "Acceleration of the UAV's centre of mass, to the right",
+            |d, _| &mut d.outputs.acceleration.x,
+        )
+        .real(
+            "base.ay",
+            &unit::METRE_PER_SECOND2,
+            Bounds::ANY,
+            "Acceleration of the UAV's centre of mass, upwards",
+            |d, _| &mut d.outputs.acceleration.y,
+        )
+        .real(
+            "base.roll_acceleration",
+            &unit::RADIAN_PER_SECOND2,
+            Bounds::ANY,
+            "Angular acceleration of the UAV",
+            |d, _| &mut d.outputs.acceleration.z,
+        );
+    for i in 0..structure.links {
+        let n = i + 1;
+        table.output().at(i).initially_from(&["joint.start"]).real(
+            format!("joint[{n}].position"),
+            &unit::RADIAN,
+            Bounds::ANY,
+            format!("Angle of joint {n}"),
+            |d, i| &mut d.outputs.position[i],
+        );
+        table.output().at(i).real(
+            format!("joint[{n}].rate"),
+            &unit::RADIAN_PER_SECOND,
+            Bounds::ANY,
+            format!("Rate of joint {n}"),
+            |d, i| &mut d.outputs.rate[i],
+        );
+        table.output().at(i).initially_from(JOINTS).real(
+            format!("joint[{n}].torque"),
+            &unit::NEWTON_METRE,
+            Bounds::ANY,
+            format!(
+                "Torque of the motor of joint {n} on the outer link, mean over the step, jumps of the rates included"
+            ),
+            |d, i| &mut d.outputs.joint_torque[i],
+        );
+    }
+    if structure.counterweight {
+        table.output().at(structure.links).initially_from(&["counterweight.start"]).real(
+            "counterweight.position",
+            &unit::METRE,
+            Bounds::ANY,
+            "Position of the counterweight along the UAV's x axis",
+            |d, i| &mut d.outputs.position[i],
+        );
+        table.output().at(structure.links).real(
+            "counterweight.rate",
+            &unit::METRE_PER_SECOND,
+            Bounds::ANY,
+            "Rate of the counterweight",
+            |d, i| &mut d.outputs.rate[i],
+        );
+    }
+    table
+        .output()
+        .initially_from(GEOMETRY)
+        .real("end_effector.x", &unit::METRE, Bounds::ANY, "Position of the end effector, to the right", |d, _| {
+            &mut d.outputs.end_effector.x
+        })
+        .real("end_effector.y", &unit::METRE, Bounds::ANY, "Position of the end effector, upwards", |d, _| {
+            &mut d.outputs.end_effector.y
+        });
+    table
+        .output()
+        .real(
+            "end_effector.vx",
+            &unit::METRE_PER_SECOND,
+            Bounds::ANY,
+            "Velocity of the end effector, to the right",
+            |d, _| &mut d.outputs.end_effector_velocity.x,
+        )
+        .real(
+            "end_effector.vy",
+            &unit::METRE_PER_SECOND,
+            Bounds::ANY,
+            "Velocity of the end effector, upwards",
+            |d, _| &mut d.outputs.end_effector_velocity.y,
+        );
+    table
+        .output()
+        .initially_from(HOVER)
+        .real(
+            "autopilot.thrust",
+            &unit::NEWTON,
+            Bounds::ANY,
+            "Thrust along the UAV's own vertical axis; mean over the step if ideal",
+            |d, _| &mut d.outputs.thrust,
+        )
+        .real(
+            "autopilot.torque",
+            &unit::NEWTON_METRE,
+            Bounds::ANY,
+            "Torque of the rotors on the UAV; mean over the step if ideal",
+            |d, _| &mut d.outputs.torque,
+        );
+    table
+        .output()
+        .initially_from(CARRIED)
+        .real(
+            "transmitted.force_y",
+            &unit::NEWTON,
+            Bounds::ANY,
+            "Force upwards of all that the UAV carries on the UAV, mean over the step",
+            |d, _| &mut d.outputs.transmitted_force.y,
+        )
+        .real(
+            "transmitted.moment",
+            &unit::NEWTON_METRE,
+            Bounds::ANY,
+            "Moment about the UAV's centre of mass of all that the UAV carries on the UAV, mean over the step",
+            |d, _| &mut d.outputs.transmitted_moment,
+        );
+    table
+        .output()
+        .real(
+            "transmitted.force_x",
+            &unit::NEWTON,
+            Bounds::ANY,
+            "Force to the right of all that the UAV carries on the UAV, mean over the step",
+            |d, _| &mut d.outputs.transmitted_force.x,
+        )
+        .real("momentum.x", &unit::NEWTON_SECOND, Bounds::ANY, "Momentum of the whole system, to the right", |d, _| {
+            &mut d.outputs.momentum.x
+        })
+        .real("momentum.y", &unit::NEWTON_SECOND, Bounds::ANY, "Momentum of the whole system, upwards", |d, _| {
+            &mut d.outputs.momentum.y
+        })
+        .real(
+            "momentum.angular",
+            &unit::NEWTON_METRE_SECOND,
+            Bounds::ANY,
+            "Angular momentum of the whole system about the UAV's centre of mass, of absolute velocities",
+            |d, _| &mut d.outputs.momentum.z,
+        );
+    table
+        .output()
+        .initially_from(MASSES)
+        .real(
+            "center_of_mass.x",
+            &unit::METRE,
+            Bounds::ANY,
+            "Centre of mass of the whole system, to the right",
+            |d, _| &mut d.outputs.center_of_mass.x,
+        )
+        .real("center_of_mass.y", &unit::METRE, Bounds::ANY, "Centre of mass of the whole system, upwards", |d, _| {
+            &mut d.outputs.center_of_mass.y
+        });
+    table.group(Causality::Output, Variability::Discrete).boolean(
+        "payload.attached",
+        "Whether the payload is held",
+        |d, _| &mut d.outputs.attached,
+    );
+    table
+        .output()
+        .real(
+            "payload.force_x",
+            &unit::NEWTON,
+            Bounds::ANY,
+            "Force to the right of the held payload on the arm, mean over the step",
+            |d, _| &mut d.outputs.payload_force.x,
+        )
+        .real(
+            "payload.force_y",
+            &unit::NEWTON,
+            Bounds::ANY,
+            "Force upwards of the held payload on the arm, mean over the step",
+            |d, _| &mut d.outputs.payload_force.y,
+        )
+        .real(
+            "support.force",
+            &unit::NEWTON,
+            Bounds::ANY,
+            "Force of the support on the held payload, upwards",
+            |d, _| &mut d.outputs.support_force,
+        );
+    table.output().real("timestamp", &unit::SECOND, Bounds::ANY, "Time of the outputs", |d, _| &mut d.time);
+}

@@ -1,0 +1,231 @@
+//! Momentum of the whole system and of what lies outboard of each joint, in the UAV frame.
+//!
+//! h = (p, K) = H_b v_b + H_m q_dot, with p the momentum and K the angular momentum about the UAV's
+//! centre of mass, both of absolute velocities (thesis 2.5). In the axes of the UAV frame, H_b and H_m
+//! depend on the coordinates q only. The sums run from the tip inwards, each mass is added once.
+
+use std::ops::{Add, Mul, Sub};
+
+use nalgebra::SVector;
+use serde::{Deserialize, Serialize};
+
+use crate::bytes;
+use crate::kinematics::Posture;
+use crate::planar::{Vec2, cross, perp, vec2};
+use crate::vehicle::Vehicle;
+
+/// A planar motion or load of the base: a vector in the plane and a component out of it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Twist {
+    /// Velocity \[m/s\], momentum \[N s\] or force \[N\].
+    pub linear: Vec2,
+    /// Angular velocity \[rad/s\], angular momentum \[N m s\] or moment \[N m\].
+    pub angular: f64,
+}
+
+impl Twist {
+    /// No motion, no load.
+    pub const ZERO: Self = Self { linear: vec2(0.0, 0.0), angular: 0.0 };
+}
+
+impl Add for Twist {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self { linear: self.linear + other.linear, angular: self.angular + other.angular }
+    }
+}
+
+impl Sub for Twist {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        Self { linear: self.linear - other.linear, angular: self.angular - other.angular }
+    }
+}
+
+impl Mul<f64> for Twist {
+    type Output = Self;
+
+    fn mul(self, factor: f64) -> Self {
+        Self { linear: self.linear * factor, angular: self.angular * factor }
+    }
+}
+
+/// The matrices H_b and H_m at one posture, in the axes of the UAV frame.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+pub struct MomentumMatrix<const N: usize> {
+    /// Mass of the whole system \[kg\].
+    pub mass: f64,
+    /// First moment of the whole system about the UAV's centre of mass \[kg m\].
+    pub first: Vec2,
+    /// Columns of H_m.
+    #[serde(with = "bytes::array")]
+    pub columns: [Twist; N],
+    /// First moment of what lies outboard of each joint, about that joint \[kg m\].
+    #[serde(with = "bytes::array")]
+    pub outboard_first: [Vec2; N],
+    /// Moment of inertia of the whole system about its centre of mass, inverse \[1/(kg m2)\].
+    compliance: f64,
+    /// Moment of inertia of the whole system about the UAV's centre of mass \[kg m2\].
+    inertia: f64,
+}
+
+impl<const N: usize> MomentumMatrix<N> {
+    /// Sums up all masses, from the tip to the UAV.
+    #[must_use]
+    pub fn new(vehicle: &Vehicle<N>, posture: &Posture<N>, held: bool) -> Self {
+        let bodies = vehicle.bodies(held);
+        let mut columns = [Twist::ZERO; N];
+        let mut outboard_first = [Vec2::zeros(); N];
+        // Composite of all links from i outwards, about joint i.
+        let (mut mass, mut first, mut inertia) = (0.0, Vec2::zeros(), 0.0);
+        for i in (0..N).rev() {
+            let (body, direction, length) = (&bodies[i], posture.direction[i], vehicle.length[i]);
+            inertia += body.second + length * (2.0 * direction.dot(&first) + mass * length);
+            first += direction * (body.first + mass * length);
+            mass += body.mass;
+            outboard_first[i] = first;
+            columns[i] = Twist { linear: perp(first), angular: posture.joint[i].dot(&first) + inertia };
+        }
+        inertia += vehicle.uav_inertia + vehicle.mount.dot(&(2.0 * first + mass * vehicle.mount));
+        first += vehicle.mount * mass;
+        mass += vehicle.uav_mass;
+        if let Some(slider) = vehicle.counterweight {
+            let place = posture.counterweight;
+            inertia += slider.inertia + slider.mass * place.norm_squared();
+            first += place * slider.mass;
+            mass += slider.mass;
+            columns[N - 1] = Twist { linear: vec2(slider.mass, 0.0), angular: -slider.mass * place.y };
+        }
+        let compliance = mass / (inertia * mass - first.norm_squared());
+        Self { mass, first, columns, outboard_first, compliance, inertia }
+    }
+
+    /// H_m q_dot: momentum from the rates alone.
+    #[must_use]
+    pub fn of_rates(&self, rate: &SVector<f64, N>) -> Twist {
+        self.columns.iter().zip(rate.iter()).fold(Twist::ZERO, |sum, (column, rate)| sum + *column * *rate)
+    }
+
+    /// H_b v_b: momentum from the motion of the base alone.
+    #[must_use]
+    pub fn of_base(&self, v: Twist) -> Twist {
+        Twist {
+            linear: v.linear * self.mass + perp(self.first) * v.angular,
+            angular: cross(self.first, v.linear) + self.inertia * v.angular,
+        }
+    }
+
+    /// H_b^-1 h: the motion of the base that has the momentum `h`, or its acceleration under a load.
+    #[must_use]
+    pub fn base_response(&self, h: Twist) -> Twist {
+        let center = self.first / self.mass;
+        let angular = (h.angular - cross(center, h.linear)) * self.compliance;
+        Twist { linear: h.linear / self.mass - perp(center) * angular, angular }
+    }
+}
+
+/// Motion and momentum of what lies outboard of a joint; axes of the UAV frame, absolute velocities.
+#[derive(Debug, Clone, Copy)]
+pub struct Outboard {
+    /// Velocity of the joint \[m/s\].
+    pub velocity: Vec2,
+    /// Momentum \[N s\] and angular momentum about the joint \[N m s\].
+    pub momentum: Twist,
+}
+
+/// Momentum outboard of each joint, with the base in motion `v` and the rates `rate`.
+#[must_use]
+pub fn outboard<const N: usize>(
+    vehicle: &Vehicle<N>,
+    posture: &Posture<N>,
+    held: bool,
+    v: Twist,
+    rate: &SVector<f64, N>,
+) -> [Outboard; N] {
+    let bodies = vehicle.bodies(held);
+    let mut outboard = [Outboard { velocity: Vec2::zeros(), momentum: Twist::ZERO }; N];
+    let mut omega = v.angular;
+    let mut velocity = v.linear + perp(vehicle.mount) * v.angular;
+    for i in 0..N {
+        omega += rate[i] * vehicle.revolute[i];
+        let (body, direction) = (&bodies[i], posture.direction[i]);
+        outboard[i] = Outboard {
+            velocity,
+            momentum: Twist {
+                linear: velocity * body.mass + perp(direction) * (omega * body.first),
+                angular: cross(direction, velocity) * body.first + omega * body.second,
+            },
+        };
+        velocity += perp(direction) * (omega * vehicle.length[i]);
+    }
+    for i in (1..N).rev() {
+        let outer = outboard[i].momentum;
+        let lever = posture.direction[i - 1] * vehicle.length[i - 1];
+        let inner = &mut outboard[i - 1].momentum;
+        inner.linear += outer.linear;
+        inner.angular += outer.angular + cross(lever, outer.linear);
+    }
+    outboard
+}
+
+/// Force and moment about the UAV's centre of mass that keep the masses on their way while the base does
+/// not accelerate: from angular velocities and from the accelerations `rate_slope` of the coordinates.
+/// Axes of the UAV frame.
+#[must_use]
+pub fn inertial_load<const N: usize>(
+    vehicle: &Vehicle<N>,
+    posture: &Posture<N>,
+    held: bool,
+    roll_rate: f64,
+    rate: &SVector<f64, N>,
+    rate_slope: &SVector<f64, N>,
+) -> Twist {
+    let bodies = vehicle.bodies(held);
+    let mut load = Twist::ZERO;
+    let (mut omega, mut alpha) = (roll_rate, 0.0);
+    let mut acceleration = vehicle.mount * (-roll_rate * roll_rate);
+    for i in 0..N {
+        omega += rate[i] * vehicle.revolute[i];
+        alpha += rate_slope[i] * vehicle.revolute[i];
+        let (body, direction) = (&bodies[i], posture.direction[i]);
+        // Acceleration of the link per distance from its joint.
+        let spread = perp(direction) * alpha - direction * (omega * omega);
+        let force = acceleration * body.mass + spread * body.first;
+        load.linear += force;
+        load.angular +=
+            cross(posture.joint[i], force) + cross(direction, acceleration) * body.first + alpha * body.second;
+        acceleration += spread * vehicle.length[i];
+    }
+    if let Some(slider) = vehicle.counterweight {
+        let place = posture.counterweight;
+        let coriolis = vec2(0.0, 2.0 * roll_rate * rate[N - 1]);
+        let force = (vec2(rate_slope[N - 1], 0.0) + coriolis - place * (roll_rate * roll_rate)) * slider.mass;
+        load.linear += force;
+        load.angular += cross(place, force);
+    }
+    load
+}
+
+/// Acceleration of the end effector while the base accelerates by `base` and the coordinates by
+/// `rate_slope`; axes of the UAV frame.
+#[must_use]
+pub fn tip_acceleration<const N: usize>(
+    vehicle: &Vehicle<N>,
+    posture: &Posture<N>,
+    base: Twist,
+    roll_rate: f64,
+    rate: &SVector<f64, N>,
+    rate_slope: &SVector<f64, N>,
+) -> Vec2 {
+    let (mut omega, mut alpha) = (roll_rate, base.angular);
+    let mut acceleration = base.linear + perp(vehicle.mount) * alpha - vehicle.mount * (omega * omega);
+    for i in 0..vehicle.links {
+        omega += rate[i];
+        alpha += rate_slope[i];
+        let direction = posture.direction[i];
+        acceleration += (perp(direction) * alpha - direction * (omega * omega)) * vehicle.length[i];
+    }
+    acceleration
+}

@@ -1,0 +1,288 @@
+//! All parameters of vehicle, autopilot, payload, inverse kinematics and reference: the plain data that
+//! describe a run, and the tables that name them.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use crate::autopilot::Autopilot;
+use crate::error::{Error, Result};
+use crate::options;
+use crate::reference::Reference;
+use crate::variables::{Kind, Table};
+
+mod table;
+
+pub use table::{declare_controller, declare_shared};
+
+/// Largest number of revolute links of an arm.
+pub const MAX_LINKS: usize = 6;
+/// Largest number of coordinates: the links and one counterweight.
+pub const MAX_COORDINATES: usize = MAX_LINKS + 1;
+
+/// What is chosen when a unit is built: it fixes the list of variables.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Structure {
+    /// Number of revolute links, 1 to [`MAX_LINKS`].
+    pub links: usize,
+    /// Whether a counterweight slides along the UAV's x axis.
+    pub counterweight: bool,
+}
+
+impl Structure {
+    /// Three links, no counterweight: the vehicle of thesis 4.3.
+    pub const DEFAULT: Self = Self { links: 3, counterweight: false };
+
+    /// Checks the number of links.
+    ///
+    /// # Errors
+    /// If it is not 1 to [`MAX_LINKS`].
+    pub fn new(links: usize, counterweight: bool) -> Result<Self> {
+        if (1..=MAX_LINKS).contains(&links) {
+            Ok(Self { links, counterweight })
+        } else {
+            Err(Error::Structure { links, largest: MAX_LINKS })
+        }
+    }
+
+    /// Every structure that can be built, the default first.
+    pub fn all() -> impl Iterator<Item = Self> {
+        let others = (1..=MAX_LINKS)
+            .flat_map(|links| [false, true].map(|counterweight| Self { links, counterweight }))
+            .filter(|structure| *structure != Self::DEFAULT);
+        std::iter::once(Self::DEFAULT).chain(others)
+    }
+
+    /// Number of coordinates: one per joint, and one for the counterweight.
+    #[must_use]
+    pub fn coordinates(&self) -> usize {
+        self.links + usize::from(self.counterweight)
+    }
+}
+
+/// Instantiates an expression for the number of coordinates of a structure: the one place where a number
+/// known at run time becomes one known to the compiler.
+#[macro_export]
+macro_rules! for_coordinates {
+    ($structure:expr, $n:ident => $body:expr) => {
+        match $structure.coordinates() {
+            1 => {
+                const $n: usize = 1;
+                $body
+            }
+            2 => {
+                const $n: usize = 2;
+                $body
+            }
+            3 => {
+                const $n: usize = 3;
+                $body
+            }
+            4 => {
+                const $n: usize = 4;
+                $body
+            }
+            5 => {
+                const $n: usize = 5;
+                $body
+            }
+            6 => {
+                const $n: usize = 6;
+                $body
+            }
+            7 => {
+                const $n: usize = 7;
+                $body
+            }
+            _ => Err($crate::Error::Structure { links: $structure.links, largest: $crate::parameters::MAX_LINKS }),
+        }
+    };
+}
+
+impl fmt::Display for Structure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} link{}", self.links, if self.links == 1 { "" } else { "s" })?;
+        if self.counterweight { write!(f, " and counterweight") } else { Ok(()) }
+    }
+}
+
+/// Mass properties of the multicopter without arm and counterweight.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Uav {
+    /// Mass \[kg\].
+    pub mass: f64,
+    /// Moment of inertia about the centre of mass \[kg m2\].
+    pub inertia: f64,
+}
+
+/// Where the first joint sits in the UAV frame.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Mount {
+    /// To the right of the UAV's centre of mass \[m\].
+    pub x: f64,
+    /// Above the UAV's centre of mass \[m\].
+    pub y: f64,
+}
+
+/// One link of the arm.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Link {
+    /// Mass \[kg\].
+    pub mass: f64,
+    /// Distance to the next joint or to the end effector \[m\].
+    pub length: f64,
+    /// Distance of the centre of mass from the link's joint \[m\].
+    pub com: f64,
+    /// Moment of inertia about the link's centre of mass \[kg m2\].
+    pub inertia: f64,
+}
+
+/// One revolute joint.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Joint {
+    /// Angle at the start \[rad\]; 0 continues the previous link, the first link hangs down.
+    pub start: f64,
+    /// Largest rate that the controller commands \[rad/s\].
+    pub rate_limit: f64,
+}
+
+/// The sliding counterweight, for instance the battery (thesis 3.8).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Counterweight {
+    /// Mass \[kg\].
+    pub mass: f64,
+    /// Moment of inertia about its centre of mass \[kg m2\].
+    pub inertia: f64,
+    /// Height of its centre of mass in the UAV frame \[m\].
+    pub height: f64,
+    /// Position along the UAV's x axis at the start \[m\].
+    pub start: f64,
+}
+
+/// A point mass that the end effector picks up.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Payload {
+    /// Mass \[kg\].
+    pub mass: f64,
+    /// Distance from the last joint along the last link \[m\].
+    pub com: f64,
+    /// When the controller closes the gripper, counted from the start \[s\].
+    pub grasp_time: f64,
+}
+
+/// The elastic support on which the payload rests (thesis 4.1).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Support {
+    /// Stiffness \[N/m\].
+    pub stiffness: f64,
+    /// Height of the unloaded support \[m\].
+    pub height: f64,
+}
+
+options! {
+    #[doc = " How the base is predicted to move."]
+    pub enum BaseModel {
+        #[doc = " It slides along x and keeps its momentum: perfect control (thesis 2.1)."]
+        Ideal = "ideal",
+        #[doc = " It also rolls, which tilts the thrust; it keeps its altitude (thesis 2.2)."]
+        HorizontalThrust = "horizontal_thrust",
+        #[doc = " Its altitude follows thrust and weight, but not the arm (thesis 2.3)."]
+        VerticalThrust = "vertical_thrust",
+        #[doc = " The arm moves it in both directions, but does not turn with it (thesis 2.4)."]
+        Translating = "translating",
+        #[doc = " It moves and turns freely with the arm on it (thesis 2.5)."]
+        Full = "full",
+    }
+}
+
+options! {
+    #[doc = " How a redundant arm chooses among the rates that follow the path."]
+    pub enum Resolution {
+        #[doc = " Smallest joint rates (right pseudo-inverse of the generalized Jacobian)."]
+        MinimumNorm = "minimum_norm",
+        #[doc = " No moment on the UAV (extended Jacobian, thesis 3.6)."]
+        ExtendedJacobian = "extended_jacobian",
+    }
+}
+
+options! {
+    #[doc = " How the interval between two plans is predicted."]
+    pub enum Discretization {
+        #[doc = " Explicit Euler for momentum, Jacobian at the old configuration: the thesis' own step."]
+        Euler = "euler",
+        #[doc = " The coming interval is integrated, and the rates are such that its end is on the reference."]
+        Exact = "exact",
+    }
+}
+
+/// Settings of the inverse kinematics.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct InverseKinematics {
+    /// Interval between two plans \[s\].
+    pub sample_time: f64,
+    /// Prediction of the base.
+    pub base_model: BaseModel,
+    /// Use of redundancy.
+    pub resolution: Resolution,
+    /// Prediction of the coming interval.
+    pub discretization: Discretization,
+}
+
+/// Everything that describes a run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Parameters {
+    /// Acceleration of gravity \[m/s2\].
+    pub gravity: f64,
+    /// The multicopter.
+    pub uav: Uav,
+    /// First joint in the UAV frame.
+    pub mount: Mount,
+    /// Links from the UAV outwards; those beyond the structure are ignored.
+    pub links: [Link; MAX_LINKS],
+    /// Joints from the UAV outwards.
+    pub joints: [Joint; MAX_LINKS],
+    /// Counterweight; ignored if the structure has none.
+    pub counterweight: Counterweight,
+    /// Hover control.
+    pub autopilot: Autopilot,
+    /// Payload.
+    pub payload: Payload,
+    /// Support of the payload.
+    pub support: Support,
+    /// Inverse kinematics.
+    pub ik: InverseKinematics,
+    /// Wanted motion of the end effector.
+    pub reference: Reference,
+}
+
+impl AsMut<Self> for Parameters {
+    fn as_mut(&mut self) -> &mut Self {
+        self
+    }
+}
+
+impl Parameters {
+    /// Checks every parameter of both units against its bounds.
+    ///
+    /// # Errors
+    /// Names the first parameter out of its bounds, with what was expected and found.
+    pub fn check(&self, structure: Structure) -> Result<()> {
+        let mut table = Table::default();
+        declare_shared(&mut table, structure);
+        declare_controller(&mut table, structure);
+        let mut copy = self.clone();
+        for variable in table.variables() {
+            if let Kind::Real { bounds, at, .. } = variable.kind {
+                let found = *at(&mut copy, variable.index);
+                if !bounds.admit(found) {
+                    return Err(Error::OutOfBounds {
+                        name: variable.name.clone(),
+                        expected: bounds.to_string(),
+                        found,
+                    });
+                }
+            }
+        }
+        self.reference.check()
+    }
+}

@@ -1,0 +1,179 @@
+//! The wanted motion of the end effector, relative to where it starts.
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::{Error, Result};
+use crate::options;
+use crate::planar::{Vec2, vec2};
+
+/// Number of legs that a path can have.
+pub const LEGS: usize = 4;
+
+options! {
+    #[doc = " What the end effector follows."]
+    pub enum ReferenceKind {
+        #[doc = " A path of straight legs, which add up where they overlap in time."]
+        Path = "path",
+        #[doc = " One counter-clockwise turn on a circle through the starting point."]
+        Circle = "circle",
+        #[doc = " Position, velocity and acceleration come as inputs."]
+        External = "external",
+    }
+}
+
+options! {
+    #[doc = " Velocity in the ramps of a leg."]
+    pub enum Profile {
+        #[doc = " Constant acceleration."]
+        Trapezoidal = "trapezoidal",
+        #[doc = " Continuous acceleration, a raised cosine."]
+        Smooth = "smooth",
+    }
+}
+
+/// A straight leg of a path: accelerates for `ramp`, cruises, brakes for `ramp`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Leg {
+    /// When it begins, from the start of the run \[s\].
+    pub start: f64,
+    /// How long it takes \[s\]; 0: no such leg.
+    pub duration: f64,
+    /// How long it accelerates, and brakes \[s\].
+    pub ramp: f64,
+    /// Way to the right \[m\].
+    pub dx: f64,
+    /// Way upwards \[m\].
+    pub dy: f64,
+    /// Velocity in the ramps.
+    pub profile: Profile,
+}
+
+impl Leg {
+    /// A leg that does not move.
+    pub const NONE: Self = Self { start: 0.0, duration: 0.0, ramp: 0.0, dx: 0.0, dy: 0.0, profile: Profile::Smooth };
+
+    /// Share of the way (0 to 1), its rate \[1/s\] and its second derivative \[1/s2\] at time `t` \[s\].
+    #[must_use]
+    pub fn progress(&self, t: f64) -> [f64; 3] {
+        let elapsed = t - self.start;
+        if elapsed <= 0.0 || self.duration == 0.0 {
+            return [0.0; 3];
+        }
+        if elapsed >= self.duration {
+            return [1.0, 0.0, 0.0];
+        }
+        let cruise = 1.0 / (self.duration - self.ramp);
+        let left = self.duration - elapsed;
+        if elapsed < self.ramp {
+            self.profile.ramp(elapsed, self.ramp).map(|value| cruise * value)
+        } else if left < self.ramp {
+            let [way, rate, acceleration] = self.profile.ramp(left, self.ramp).map(|value| cruise * value);
+            [1.0 - way, rate, -acceleration]
+        } else {
+            [cruise * (elapsed - 0.5 * self.ramp), cruise, 0.0]
+        }
+    }
+}
+
+impl Profile {
+    /// Way \[s\], velocity and acceleration \[1/s\] of a ramp from rest to velocity 1, `t` into its `duration`.
+    fn ramp(self, t: f64, duration: f64) -> [f64; 3] {
+        match self {
+            Self::Trapezoidal => [0.5 * t * t / duration, t / duration, 1.0 / duration],
+            Self::Smooth => {
+                let turn = std::f64::consts::TAU;
+                let (sin, cos) = (turn * t / duration).sin_cos();
+                [
+                    0.5 * t * t / duration - duration / (turn * turn) * (1.0 - cos),
+                    t / duration - sin / turn,
+                    (1.0 - cos) / duration,
+                ]
+            }
+        }
+    }
+}
+
+/// One turn on a circle, at rest before and after; the angle's acceleration is a sine, so continuous.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Circle {
+    /// Diameter \[m\].
+    pub diameter: f64,
+    /// How long the turn takes \[s\].
+    pub duration: f64,
+    /// Where on the circle the motion starts \[rad\]; 0: rightmost.
+    pub start_angle: f64,
+}
+
+/// Position, velocity and acceleration of the wanted motion, from its starting point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Target {
+    /// Displacement from the starting point \[m\].
+    pub displacement: Vec2,
+    /// Velocity \[m/s\].
+    pub velocity: Vec2,
+    /// Acceleration \[m/s2\].
+    pub acceleration: Vec2,
+}
+
+/// The wanted motion of the end effector.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Reference {
+    /// Which of the motions.
+    pub kind: ReferenceKind,
+    /// Legs of the path.
+    pub legs: [Leg; LEGS],
+    /// The circle.
+    pub circle: Circle,
+}
+
+impl Reference {
+    /// Checks that every leg has time for its ramps.
+    ///
+    /// # Errors
+    /// Names the leg whose two ramps are longer than the leg.
+    pub fn check(&self) -> Result<()> {
+        for (j, leg) in self.legs.iter().enumerate().filter(|(_, leg)| leg.duration > 0.0) {
+            if 2.0 * leg.ramp > leg.duration || (leg.ramp == 0.0 && leg.profile == Profile::Smooth) {
+                return Err(Error::Inconsistent {
+                    name: format!("reference.leg[{}].ramp", j + 1),
+                    expected: format!(
+                        "two ramps must fit into the leg's duration of {} s, and a smooth one takes time",
+                        leg.duration
+                    ),
+                    found: leg.ramp.to_string(),
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// The wanted motion at time `t` \[s\] from the start; at rest for [`ReferenceKind::External`].
+    #[must_use]
+    pub fn at(&self, t: f64) -> Target {
+        let mut target = Target { displacement: Vec2::zeros(), velocity: Vec2::zeros(), acceleration: Vec2::zeros() };
+        match self.kind {
+            ReferenceKind::Path => {
+                for leg in &self.legs {
+                    let way = vec2(leg.dx, leg.dy);
+                    let [share, rate, acceleration] = leg.progress(t);
+                    target.displacement += way * share;
+                    target.velocity += way * rate;
+                    target.acceleration += way * acceleration;
+                }
+            }
+            ReferenceKind::Circle => {
+                let turn = std::f64::consts::TAU;
+                let whole = Leg { duration: self.circle.duration, ramp: 0.5 * self.circle.duration, ..Leg::NONE };
+                let [angle, rate, acceleration] = whole.progress(t).map(|share| turn * share);
+                let radius = 0.5 * self.circle.diameter;
+                let (sin_0, cos_0) = self.circle.start_angle.sin_cos();
+                let (sin, cos) = (self.circle.start_angle + angle).sin_cos();
+                target.displacement = radius * vec2(cos - cos_0, sin - sin_0);
+                target.velocity = radius * rate * vec2(-sin, cos);
+                target.acceleration = radius * (acceleration * vec2(-sin, cos) - rate * rate * vec2(cos, sin));
+            }
+            ReferenceKind::External => {}
+        }
+        target
+    }
+}

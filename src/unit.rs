@@ -1,0 +1,79 @@
+//! Physical units of the interface variables, with the units in which hosts should display them.
+
+/// A coherent SI unit as a product of powers of base units.
+#[derive(Debug, PartialEq)]
+pub struct Unit {
+    /// Name as in model descriptions, for instance `N.m`.
+    pub name: &'static str,
+    /// Exponent of the kilogram.
+    pub kg: i8,
+    /// Exponent of the metre.
+    pub m: i8,
+    /// Exponent of the second.
+    pub s: i8,
+    /// Exponent of the radian.
+    pub rad: i8,
+    /// How people like to read it.
+    pub display: Option<Display>,
+}
+
+/// A unit for display: value in this unit = `factor` * value in the SI unit.
+#[derive(Debug, PartialEq)]
+pub struct Display {
+    /// Name, for instance `deg`.
+    pub name: &'static str,
+    /// Display units per SI unit.
+    pub factor: f64,
+}
+
+const DEGREES_PER_RADIAN: f64 = 180.0 / std::f64::consts::PI;
+
+const fn unit(name: &'static str, [kg, m, s, rad]: [i8; 4]) -> Unit {
+    Unit { name, kg, m, s, rad, display: None }
+}
+
+const fn shown(mut unit: Unit, name: &'static str, factor: f64) -> Unit {
+    unit.display = Some(Display { name, factor });
+    unit
+}
+
+/// A pure number.
+pub static ONE: Unit = unit("1", [0, 0, 0, 0]);
+/// Mass.
+pub static KILOGRAM: Unit = unit("kg", [1, 0, 0, 0]);
+/// Length.
+pub static METRE: Unit = shown(unit("m", [0, 1, 0, 0]), "mm", 1000.0);
+/// Time.
+pub static SECOND: Unit = shown(unit("s", [0, 0, 1, 0]), "ms", 1000.0);
+/// Angle.
+pub static RADIAN: Unit = shown(unit("rad", [0, 0, 0, 1]), "deg", DEGREES_PER_RADIAN);
+/// Velocity.
+pub static METRE_PER_SECOND: Unit = shown(unit("m/s", [0, 1, -1, 0]), "mm/s", 1000.0);
+/// Acceleration.
+pub static METRE_PER_SECOND2: Unit = unit("m/s2", [0, 1, -2, 0]);
+/// Angular velocity.
+pub static RADIAN_PER_SECOND: Unit = shown(unit("rad/s", [0, 0, -1, 1]), "deg/s", DEGREES_PER_RADIAN);
+/// Angular acceleration.
+pub static RADIAN_PER_SECOND2: Unit = shown(unit("rad/s2", [0, 0, -2, 1]), "deg/s2", DEGREES_PER_RADIAN);
+/// Force.
+pub static NEWTON: Unit = unit("N", [1, 1, -2, 0]);
+/// Moment of a force.
+pub static NEWTON_METRE: Unit = unit("N.m", [1, 2, -2, 0]);
+/// Moment of inertia.
+pub static KILOGRAM_METRE2: Unit = unit("kg.m2", [1, 2, 0, 0]);
+/// Linear momentum.
+pub static NEWTON_SECOND: Unit = unit("N.s", [1, 1, -1, 0]);
+/// Angular momentum.
+pub static NEWTON_METRE_SECOND: Unit = unit("N.m.s", [1, 2, -1, 0]);
+/// Stiffness; altitude gain kp.
+pub static NEWTON_PER_METRE: Unit = unit("N/m", [1, 0, -2, 0]);
+/// Altitude gain ki.
+pub static NEWTON_PER_METRE_SECOND: Unit = unit("N/(m.s)", [1, 0, -3, 0]);
+/// Altitude gain kd.
+pub static NEWTON_SECOND_PER_METRE: Unit = unit("N.s/m", [1, 0, -1, 0]);
+/// Roll gain kp.
+pub static NEWTON_METRE_PER_RADIAN: Unit = unit("N.m/rad", [1, 2, -2, -1]);
+/// Roll gain ki.
+pub static NEWTON_METRE_PER_RADIAN_SECOND: Unit = unit("N.m/(rad.s)", [1, 2, -3, -1]);
+/// Roll gain kd.
+pub static NEWTON_METRE_SECOND_PER_RADIAN: Unit = unit("N.m.s/rad", [1, 2, -1, -1]);

@@ -1,0 +1,138 @@
+//! The mass properties of an aerial manipulator with `N` coordinates, ready for the equations of motion.
+//!
+//! Coordinates: the joint angles of `links` revolute links from the UAV outwards and, if there is one,
+//! the position of the counterweight as the last coordinate.
+
+use crate::error::{Error, Result};
+use crate::parameters::{Parameters, Structure};
+use crate::planar::{Vec2, vec2};
+
+/// Mass moments of a link about its own joint, along the link.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Body {
+    /// Mass \[kg\].
+    pub mass: f64,
+    /// First moment: mass times distance of the centre of mass from the joint \[kg m\].
+    pub first: f64,
+    /// Second moment: moment of inertia about the joint \[kg m2\].
+    pub second: f64,
+}
+
+impl Body {
+    const NOTHING: Self = Self { mass: 0.0, first: 0.0, second: 0.0 };
+
+    /// A body with a centre of mass at distance `com` from the joint, and `inertia` about it.
+    fn new(mass: f64, com: f64, inertia: f64) -> Self {
+        Self { mass, first: mass * com, second: inertia + mass * com * com }
+    }
+
+    /// This body with `other` fixed to it.
+    fn with(self, other: Self) -> Self {
+        Self { mass: self.mass + other.mass, first: self.first + other.first, second: self.second + other.second }
+    }
+}
+
+/// A counterweight that slides along the UAV's x axis without turning.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Slider {
+    /// Mass \[kg\].
+    pub mass: f64,
+    /// Moment of inertia about its own centre of mass \[kg m2\].
+    pub inertia: f64,
+    /// Height in the UAV frame \[m\].
+    pub height: f64,
+}
+
+/// Constants of an aerial manipulator with `N` coordinates.
+#[derive(Debug, Clone)]
+pub struct Vehicle<const N: usize> {
+    /// Number of revolute links: `N`, or `N - 1` with a counterweight.
+    pub links: usize,
+    /// 1 for a joint, 0 for the counterweight.
+    ///
+    /// In sums over the chain the counterweight's place is taken by a link without mass, length and joint:
+    /// loops over all `N` then have a length that the compiler knows, which halves their cost.
+    pub revolute: [f64; N],
+    /// Acceleration of gravity \[m/s2\].
+    pub gravity: f64,
+    /// Mass of the UAV alone \[kg\].
+    pub uav_mass: f64,
+    /// Inertia of the UAV alone about its centre of mass \[kg m2\].
+    pub uav_inertia: f64,
+    /// First joint in the UAV frame \[m\].
+    pub mount: Vec2,
+    /// Lengths of the links \[m\].
+    pub length: [f64; N],
+    /// Counterweight, if there is one.
+    pub counterweight: Option<Slider>,
+    /// Mass of the payload \[kg\].
+    pub payload_mass: f64,
+    /// Distance of the held payload from the last joint \[m\].
+    pub payload_com: f64,
+    empty: [Body; N],
+    loaded: [Body; N],
+}
+
+impl<const N: usize> Vehicle<N> {
+    /// Takes the mass properties out of `parameters`.
+    ///
+    /// # Errors
+    /// If `structure` does not have `N` coordinates.
+    pub fn new(structure: Structure, parameters: &Parameters) -> Result<Self> {
+        let links = structure.links;
+        if structure.coordinates() != N {
+            return Err(Error::Inconsistent {
+                name: "structure".to_owned(),
+                expected: format!("{N} coordinates"),
+                found: structure.to_string(),
+            });
+        }
+        let payload = &parameters.payload;
+        let mut empty = [Body::NOTHING; N];
+        let mut length = [0.0; N];
+        for (i, link) in parameters.links.iter().enumerate().take(links) {
+            empty[i] = Body::new(link.mass, link.com, link.inertia);
+            length[i] = link.length;
+        }
+        let mut loaded = empty;
+        loaded[links - 1] = empty[links - 1].with(Body::new(payload.mass, payload.com, 0.0));
+        Ok(Self {
+            links,
+            revolute: std::array::from_fn(|i| if i < links { 1.0 } else { 0.0 }),
+            gravity: parameters.gravity,
+            uav_mass: parameters.uav.mass,
+            uav_inertia: parameters.uav.inertia,
+            mount: vec2(parameters.mount.x, parameters.mount.y),
+            length,
+            counterweight: structure.counterweight.then_some(Slider {
+                mass: parameters.counterweight.mass,
+                inertia: parameters.counterweight.inertia,
+                height: parameters.counterweight.height,
+            }),
+            payload_mass: payload.mass,
+            payload_com: payload.com,
+            empty,
+            loaded,
+        })
+    }
+
+    /// The links, the last one with the payload if it is `held`.
+    #[must_use]
+    pub fn bodies(&self, held: bool) -> &[Body; N] {
+        if held { &self.loaded } else { &self.empty }
+    }
+
+    /// Mass of UAV, arm and counterweight, without the payload \[kg\].
+    #[must_use]
+    pub fn mass(&self) -> f64 {
+        self.uav_mass
+            + self.empty.iter().map(|body| body.mass).sum::<f64>()
+            + self.counterweight.map_or(0.0, |slider| slider.mass)
+    }
+
+    /// Largest distance of a point of the stretched arm from the UAV's centre of mass \[m\].
+    #[must_use]
+    pub fn reach(&self) -> f64 {
+        self.mount.norm() + self.length.iter().sum::<f64>()
+    }
+}

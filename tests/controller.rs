@@ -1,0 +1,220 @@
+//! The controller with the plant: tracking, limits, host steps and wrong parameters.
+
+mod common;
+
+use std::f64::consts::PI;
+
+use common::assert_close;
+use common::coupling::Coupling;
+use nalgebra::Vector2;
+use uam::autopilot::AutopilotMode;
+use uam::controller::{self, Status};
+use uam::parameters::{Discretization, Resolution};
+use uam::reference::ReferenceKind;
+use uam::scenarios::default_parameters;
+use uam::{Parameters, Structure};
+
+const DEFAULT: Structure = Structure::DEFAULT;
+
+fn with(change: impl Fn(&mut Parameters)) -> Parameters {
+    let mut parameters = default_parameters(DEFAULT);
+    change(&mut parameters);
+    parameters
+}
+
+fn start(parameters: &Parameters) -> controller::Outputs {
+    Coupling::new(DEFAULT, parameters).commands
+}
+
+/// Every structure that can be built runs with its default parameters for a second and follows its path.
+#[test]
+fn all_structures_run_with_their_defaults() {
+    for structure in Structure::all() {
+        let mut coupling = Coupling::new(structure, &default_parameters(structure));
+        for _ in 0..100 {
+            coupling.step(0.01);
+            let (o, c) = (&coupling.plant.outputs, &coupling.commands);
+            let all = [&coupling.plant.motion()[..], &o.joint_torque, &c.rate_command, &c.predicted_position].concat();
+            assert!(all.iter().all(|value| value.is_finite()), "{structure}");
+            let limits = coupling.plant.model.parameters.joints.iter().map(|joint| joint.rate_limit);
+            assert!(c.rate_command.iter().zip(limits).take(structure.links).all(|(r, l)| r.abs() <= l * (1.0 + 1e-15)));
+        }
+    }
+}
+
+/// The prediction is the plant's motion: nothing but rounding between them, in every mode of the autopilot.
+#[test]
+fn the_prediction_is_the_plant() {
+    let modes = [(AutopilotMode::Pid, 0.0), (AutopilotMode::Pid, 3e-3), (AutopilotMode::Ideal, 0.0)];
+    for (mode, sample_time) in modes {
+        let mut coupling = Coupling::new(
+            DEFAULT,
+            &with(|p| {
+                p.autopilot.mode = mode;
+                p.autopilot.sample_time = sample_time;
+                p.payload.grasp_time = 0.45;
+            }),
+        );
+        for _ in 0..150 {
+            coupling.step(5e-3);
+            let (o, c) = (&coupling.plant.outputs, &coupling.commands);
+            assert_close(c.predicted_pose.as_slice(), o.pose.as_slice(), 1e-11, "pose");
+            assert_close(c.predicted_velocity.as_slice(), o.velocity.as_slice(), 1e-10, "velocity");
+            assert_close(&c.predicted_position, &o.position, 1e-11, "position");
+            assert_close(c.predicted_end_effector.as_slice(), o.end_effector.as_slice(), 1e-11, "end effector");
+        }
+    }
+}
+
+/// On the carriage, too, the arm keeps moments off the base: what the plant measures is zero.
+#[test]
+fn the_extended_jacobian_keeps_moments_off_the_base() {
+    for mode in [AutopilotMode::Pid, AutopilotMode::Ideal] {
+        let mut coupling = Coupling::new(DEFAULT, &with(|p| p.autopilot.mode = mode));
+        for _ in 0..100 {
+            coupling.step(0.01);
+            assert!(coupling.plant.outputs.transmitted_moment.abs() < 1e-8, "{mode:?}");
+        }
+        assert_eq!(coupling.commands.status, Status::Ok);
+    }
+}
+
+/// Steps with rounding in them, plans every 2 ms: at the samples the end effector is on the reference.
+#[test]
+fn host_steps_with_rounding_do_not_disturb_the_plans() {
+    let mut coupling = Coupling::new(DEFAULT, &with(|p| p.ik.sample_time = 2e-3));
+    let odd = 0.000_999_999_999_984_546;
+    for i in 0..250 {
+        coupling.step(odd);
+        coupling.step(1e-13);
+        coupling.step(1e-3 + (1e-3 - odd) - 1e-13);
+        if i > 0 {
+            assert!(coupling.error() < 1e-9, "t = {}: {:e}", coupling.plant.time, coupling.error());
+        }
+    }
+}
+
+/// Rates keep their directions but none exceeds its limit; afterwards the path is caught up with.
+#[test]
+fn rate_limits_are_respected() {
+    let limit = 0.6;
+    let mut coupling =
+        Coupling::new(DEFAULT, &with(|p| p.joints.iter_mut().for_each(|joint| joint.rate_limit = limit)));
+    let mut limited = false;
+    for _ in 0..600 {
+        coupling.step(0.01);
+        let c = &coupling.commands;
+        let largest = c.rate_command.iter().fold(0.0, |largest: f64, rate| largest.max(rate.abs()));
+        assert!(largest <= limit * (1.0 + 1e-15));
+        if c.status == Status::RateLimited {
+            assert_close(&[largest], &[limit], 1e-15, "largest rate");
+            assert!(c.velocity_residual > 0.0);
+            limited = true;
+        }
+    }
+    assert!(limited);
+    assert_eq!(coupling.commands.status, Status::Ok);
+    assert!(coupling.error() < 1e-8, "{:e}", coupling.error());
+}
+
+/// A path that leads out of reach and back: bounded and finite beyond, on the reference again afterwards.
+#[test]
+fn beyond_reach_and_back() {
+    for resolution in [Resolution::MinimumNorm, Resolution::ExtendedJacobian] {
+        for discretization in [Discretization::Euler, Discretization::Exact] {
+            let mut coupling = Coupling::new(
+                DEFAULT,
+                &with(|p| {
+                    (p.ik.resolution, p.ik.discretization) = (resolution, discretization);
+                    let leg = p.reference.legs[0].clone();
+                    p.reference.legs = std::array::from_fn(|_| uam::reference::Leg::NONE);
+                    p.reference.legs[0] = uam::reference::Leg { dx: 0.0, dy: -0.25, ..leg.clone() };
+                    p.reference.legs[1] = uam::reference::Leg { start: 2.0, dx: 0.0, dy: 0.25, ..leg };
+                    p.payload.grasp_time = 100.0;
+                }),
+            );
+            let mut damped = false;
+            for _ in 0..400 {
+                coupling.step(0.01);
+                let rates = coupling.commands.rate_command;
+                damped |= coupling.commands.status != Status::Ok;
+                assert!(rates.iter().all(|rate| rate.abs() <= 10.0 * PI * (1.0 + 1e-15)), "{rates:?}");
+            }
+            assert!(damped, "{resolution:?} {discretization:?}");
+            if discretization == Discretization::Exact {
+                assert!(coupling.error() < 1e-9, "{resolution:?}: {:e}", coupling.error());
+            }
+        }
+    }
+}
+
+/// An external reference that goes on as its velocity and acceleration say is followed exactly.
+#[test]
+fn an_external_reference_is_followed() {
+    let mut coupling = Coupling::new(
+        DEFAULT,
+        &with(|p| {
+            p.reference.kind = ReferenceKind::External;
+            p.ik.sample_time = 0.01;
+        }),
+    );
+    let origin = coupling.plant.outputs.end_effector;
+    let (v, a) = (Vector2::new(0.0, 0.0), Vector2::new(0.05, -0.08));
+    for _ in 0..100 {
+        let t = coupling.plant.time + 0.01;
+        coupling.external.position = origin + (v + a * (0.5 * t)) * t;
+        coupling.external.velocity = v + a * t;
+        coupling.external.acceleration = a;
+        coupling.step(0.01);
+        // The first interval is planned before the reference is known.
+        if t > 0.03 {
+            assert!(coupling.error() < 1e-9, "t = {t}: {:e}", coupling.error());
+        }
+    }
+}
+
+/// Grasped at the first communication point from its time less 1e-9 s on; a negative time: from the start.
+#[test]
+fn the_grasp_comes_in_time() {
+    for (time, before) in [(0.05, true), (0.05 + 0.9e-9, true), (0.05 + 2e-9, false)] {
+        let mut coupling = Coupling::new(DEFAULT, &with(|p| p.payload.grasp_time = time));
+        for _ in 0..4 {
+            coupling.step(0.01);
+            assert!(!coupling.commands.grasp);
+        }
+        coupling.step(0.01);
+        assert_eq!(coupling.commands.grasp, before, "{time}");
+        coupling.step(0.01);
+        assert!(coupling.commands.grasp);
+        assert_eq!(coupling.plant.outputs.attached, before);
+    }
+    assert!(start(&with(|p| p.payload.grasp_time = -1.0)).grasp);
+    assert!(start(&with(|p| p.payload.grasp_time = 0.0)).grasp);
+    assert!(!start(&with(|_| {})).grasp);
+}
+
+/// The grasp comes at the first communication point from its time on even if no plan is due there.
+#[test]
+fn the_grasp_does_not_wait_for_a_plan() {
+    let mut coupling = Coupling::new(
+        DEFAULT,
+        &with(|p| {
+            p.payload.grasp_time = 0.015;
+            p.ik.sample_time = 0.01;
+        }),
+    );
+    for _ in 0..15 {
+        coupling.step(1e-3);
+    }
+    assert!(coupling.commands.grasp);
+}
+
+/// Plans depend on parameters only: the first rates are there before any step, and at rest there are none.
+#[test]
+fn the_first_interval_is_planned_at_once() {
+    let outputs = start(&with(|p| p.ik.sample_time = 0.01));
+    assert!(outputs.rate_command[..3].iter().any(|rate| rate.abs() > 1e-6));
+    assert_close(outputs.predicted_end_effector.as_slice(), outputs.reference.as_slice(), 1e-15, "at the start");
+    let still = start(&with(|p| p.reference.legs.iter_mut().for_each(|leg| leg.duration = 0.0)));
+    assert!(still.rate_command.iter().all(|rate| rate.abs() < 1e-6), "{:?}", still.rate_command);
+}

@@ -1,0 +1,84 @@
+//! The shared libraries in the FMUs.
+
+#![allow(clippy::unwrap_used, reason = "helpers of tests may fail like tests")]
+
+use std::collections::BTreeSet;
+use std::fs;
+
+use fmi::traits::FmiImport;
+use fmi_host::Unit;
+use object::read::{Export, NameOrOrdinal, Object};
+use uam::Structure;
+
+/// Largest admissible library \[B\].
+const LARGEST: usize = 1_000_000;
+
+/// FMI 2.0, `fmi2Functions.h`: what every co-simulation unit must export, available or not.
+const FUNCTIONS: [&str; 34] = [
+    "fmi2CancelStep",
+    "fmi2DeSerializeFMUstate",
+    "fmi2DoStep",
+    "fmi2EnterInitializationMode",
+    "fmi2ExitInitializationMode",
+    "fmi2FreeFMUstate",
+    "fmi2FreeInstance",
+    "fmi2GetBoolean",
+    "fmi2GetBooleanStatus",
+    "fmi2GetDirectionalDerivative",
+    "fmi2GetFMUstate",
+    "fmi2GetInteger",
+    "fmi2GetIntegerStatus",
+    "fmi2GetReal",
+    "fmi2GetRealOutputDerivatives",
+    "fmi2GetRealStatus",
+    "fmi2GetStatus",
+    "fmi2GetString",
+    "fmi2GetStringStatus",
+    "fmi2GetTypesPlatform",
+    "fmi2GetVersion",
+    "fmi2Instantiate",
+    "fmi2Reset",
+    "fmi2SerializeFMUstate",
+    "fmi2SerializedFMUstateSize",
+    "fmi2SetBoolean",
+    "fmi2SetDebugLogging",
+    "fmi2SetFMUstate",
+    "fmi2SetInteger",
+    "fmi2SetReal",
+    "fmi2SetRealInputDerivatives",
+    "fmi2SetString",
+    "fmi2SetupExperiment",
+    "fmi2Terminate",
+];
+
+fn library(unit: &Unit) -> Vec<u8> {
+    let import = unit.import();
+    let name = &import.model_description().model_name;
+    fs::read(import.archive_path().join(import.shared_lib_path(name).unwrap())).unwrap()
+}
+
+fn name(export: &Export) -> String {
+    match export.name() {
+        NameOrOrdinal::Name(name) => String::from_utf8(name.to_owned()).unwrap(),
+        NameOrOrdinal::Ordinal(number) => format!("number {number}"),
+    }
+}
+
+#[test]
+fn they_export_the_functions_of_the_standard_and_nothing_else() {
+    for unit in [Unit::controller(Structure::DEFAULT), Unit::plant(Structure::DEFAULT)] {
+        let library = library(&unit);
+        let file = object::File::parse(library.as_slice()).unwrap();
+        let exports = file.exports().unwrap();
+        let names: BTreeSet<String> = exports.map(|export| name(&export.unwrap())).collect();
+        assert_eq!(names, FUNCTIONS.map(str::to_owned).into());
+    }
+}
+
+#[test]
+fn they_are_small() {
+    for unit in [Unit::controller(Structure::DEFAULT), Unit::plant(Structure::DEFAULT)] {
+        let size = library(&unit).len();
+        assert!(size <= LARGEST, "{}: {size} B", unit.import().model_description().model_name);
+    }
+}

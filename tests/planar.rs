@@ -1,0 +1,63 @@
+//! Vectors and rotations in the plane, against the trigonometric functions.
+
+mod common;
+
+use common::cases;
+use proptest::prelude::*;
+use uam::planar::{Turn, cross, perp, vec2};
+
+/// How far two turns differ in cosine and sine.
+fn difference(a: Turn, b: Turn) -> f64 {
+    (a.apply(vec2(1.0, 0.0)) - b.apply(vec2(1.0, 0.0))).amax()
+}
+
+/// sin(0.1) and cos(0.1) to 20 digits (Abramowitz and Stegun, table 4.6): a polynomial one term shorter
+/// would be off by 3e-16 and more.
+#[test]
+fn a_small_turn_has_the_tabulated_sine_and_cosine() {
+    let turned = Turn::by_small(0.1).apply(vec2(1.0, 0.0));
+    assert!((turned.y - 0.099_833_416_646_828_15).abs() <= 3e-17);
+    assert!((turned.x - 0.995_004_165_278_025_8).abs() <= 2.3e-16);
+}
+
+/// Relative to the angle, so that tiny turns are right, too.
+#[test]
+fn a_small_turn_equals_the_general_one_to_rounding_up_to_its_bound_and_beyond() {
+    for i in -4000..=4000 {
+        let angle = f64::from(i) * 5e-5;
+        let turned = Turn::by_small(angle).apply(vec2(1.0, 0.0));
+        assert!((turned.y - angle.sin()).abs() <= 2.3e-16 * angle.abs(), "sin {angle}");
+        assert!((turned.x - angle.cos()).abs() <= 2.3e-16, "cos {angle}");
+    }
+    for angle in [0.1, -0.1, 0.1_f64.next_up(), 0.5, -3.0, 100.0] {
+        assert!(difference(Turn::by_small(angle), Turn::by(angle)) <= 2.3e-16, "{angle}");
+    }
+}
+
+/// Counter-clockwise: x turns into y. Down turned by +90 degrees points right, up points left.
+#[test]
+fn turns_are_counter_clockwise() {
+    let quarter = Turn::by(std::f64::consts::FRAC_PI_2);
+    assert!((quarter.apply(vec2(1.0, 0.0)) - vec2(0.0, 1.0)).amax() < 1e-15);
+    assert!((quarter.down() - vec2(1.0, 0.0)).amax() < 1e-15);
+    assert!((quarter.up() - vec2(-1.0, 0.0)).amax() < 1e-15);
+    assert_eq!(Turn::NONE.down(), vec2(0.0, -1.0));
+    assert_eq!(Turn::NONE.up(), vec2(0.0, 1.0));
+    assert_eq!(cross(vec2(1.0, 0.0), vec2(0.0, 1.0)), 1.0);
+    assert_eq!(perp(vec2(1.0, 2.0)), vec2(-2.0, 1.0));
+}
+
+proptest! {
+    #![proptest_config(cases(256))]
+
+    /// Angles add under composition, and undo undoes.
+    #[test]
+    fn turns_compose(a in -7.0..7.0, b in -7.0..7.0, x in -2.0..2.0, y in -2.0..2.0) {
+        let v = vec2(x, y);
+        prop_assert!(difference(Turn::by(a).then(Turn::by(b)), Turn::by(a + b)) < 2e-15);
+        prop_assert!((Turn::by(a).undo(Turn::by(a).apply(v)) - v).amax() < 2e-15);
+        prop_assert!((Turn::by(a).apply(v).norm() - v.norm()).abs() < 2e-15);
+        // cross(v, perp v) is the squared length, for every turn of both.
+        prop_assert!((cross(Turn::by(a).apply(v), Turn::by(a).apply(perp(v))) - v.norm_squared()).abs() < 1e-14);
+    }
+}

@@ -1,0 +1,71 @@
+"""FMUs for the tests: built by the project's own program, once per structure and session."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+TARGET = ROOT / os.environ.get("CARGO_TARGET_DIR", "target")
+sys.path.insert(0, str(ROOT / "examples"))
+
+
+@dataclass(frozen=True)
+class Structure:
+    """What is chosen when FMUs are built."""
+
+    links: int
+    counterweight: bool = False
+
+    def __str__(self) -> str:
+        return f"{self.links}{'c' if self.counterweight else ''}"
+
+
+DEFAULT = Structure(3)
+ALL = [Structure(links, counterweight) for links in range(1, 7) for counterweight in (False, True)]
+SOME = [DEFAULT, Structure(2, counterweight=True), Structure(1), Structure(6)]
+FULL = bool(os.environ.get("UAM_FULL"))
+
+
+@dataclass(frozen=True)
+class Pair:
+    """The two FMUs of a structure."""
+
+    controller: Path
+    plant: Path
+
+
+def program(*arguments: str) -> str:
+    """Run the project's program and return what it prints."""
+    command = [os.environ.get("CARGO", "cargo"), "run", "--release", "--quiet", "--locked", "--"]
+    run = subprocess.run([*command, *arguments], cwd=ROOT, capture_output=True, text=True)
+    assert run.returncode == 0, run.stderr
+    return run.stdout
+
+
+@cache
+def build(structure: Structure) -> Pair:
+    """The FMUs of a structure."""
+    folder = TARGET / "fmus" / str(structure)
+    counterweight = ["--counterweight"] if structure.counterweight else []
+    program("build", "--links", str(structure.links), *counterweight, "--out", str(folder))
+    return Pair(folder / "uam_controller.fmu", folder / "uam_plant.fmu")
+
+
+@pytest.fixture(scope="session")
+def fmus() -> Callable[[Structure], Pair]:
+    """The FMUs of any structure."""
+    return build
+
+
+@pytest.fixture(scope="session")
+def pair() -> Pair:
+    """The FMUs of the default structure."""
+    return build(DEFAULT)

@@ -1,0 +1,122 @@
+"""FMPy as a host: validation, each unit alone, both coupled, and FMPy's own command line."""
+
+from __future__ import annotations
+
+import csv
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from fmpy import read_model_description, simulate_fmu
+from fmpy.validation import validate_fmu
+
+import couple
+from conftest import ALL, ROOT, Pair, Structure, build, program
+
+# The thesis' joint angles at the start of the pick-up [rad].
+START = -np.pi / 6, 2 * np.pi / 3, -2 * np.pi / 3
+
+
+@pytest.mark.parametrize("structure", ALL, ids=str)
+def test_validation_finds_no_problem(structure: Structure) -> None:
+    for fmu in (build(structure).controller, build(structure).plant):
+        assert validate_fmu(str(fmu)) == []
+
+
+def test_controller_alone(pair: Pair) -> None:
+    """30 s at 1 ms: what it predicts follows the reference."""
+    result = simulate_fmu(str(pair.controller), output_interval=1e-3)
+    assert len(result) == 30001
+    assert result["time"][-1] == pytest.approx(30.0, abs=1e-9)
+    for axis in "xy":
+        off = result[f"predicted.end_effector.{axis}"] - result[f"reference.{axis}"]
+        assert np.max(np.abs(off)) < 1e-9
+    # There and back: 8 cm to the right and 12 cm down between 1.5 s and 2 s.
+    way = [result[f"reference.{axis}"] - result[f"reference.{axis}"][0] for axis in "xy"]
+    assert [float(w[1750]) for w in way] == pytest.approx([0.08, -0.12], abs=1e-12)
+    assert [float(w[-1]) for w in way] == pytest.approx([0.0, 0.0], abs=1e-12)
+    assert not result["grasp"][1500] and result["grasp"][1700]
+
+
+def test_controller_alone_by_default(pair: Pair) -> None:
+    """FMPy takes the stop time of the default experiment, and steps of 32 ms."""
+    result = simulate_fmu(str(pair.controller))
+    assert result["time"][-1] == pytest.approx(30.0, abs=1e-9)
+    off = [result[f"predicted.end_effector.{a}"] - result[f"reference.{a}"] for a in "xy"]
+    assert np.max(np.abs(off)) < 1e-5
+
+
+def test_plant_alone_without_inputs(pair: Pair) -> None:
+    """The arm's centre of mass is below the UAV's, thrust carries all weight: nothing moves."""
+    result = simulate_fmu(str(pair.plant), stop_time=5.0, output_interval=0.01)
+    for name in ("base.x", "base.y", "base.roll", "end_effector.vx", "end_effector.vy"):
+        assert np.max(np.abs(result[name])) < 1e-9, name
+    assert result["autopilot.thrust"][-1] == pytest.approx((4.2 + 3.0) * 9.81, abs=1e-9)
+    assert result["timestamp"] == pytest.approx(result["time"], abs=1e-12)
+
+
+def test_plant_alone_with_inputs(pair: Pair) -> None:
+    """Imposed rates: q = q0 + integral of the rate. Two rates jump, another is held throughout."""
+    rates = [(0.4, -0.3, 0.1), (-0.2, 0.5, 0.1)]
+    names = [f"joint[{n}].rate_command" for n in (1, 2, 3)]
+    kind = [("time", float), *((name, float) for name in names)]
+    times = [0.0, 1.0, 1.0, 2.0]
+    rows = [(time, *rates[k // 2]) for k, time in enumerate(times)]
+    signals = np.array(rows, dtype=kind)
+    result = simulate_fmu(str(pair.plant), stop_time=2.0, output_interval=0.01, input=signals)
+    for n, (start, first, second) in enumerate(zip(START, *rates), start=1):
+        assert result[f"joint[{n}].position"][-1] == pytest.approx(start + first + second, abs=1e-9)
+        assert result[f"joint[{n}].rate"][-1] == pytest.approx(second, abs=1e-15)
+    assert np.max(np.abs(result["base.roll"])) > 1e-3
+
+
+@pytest.mark.parametrize("step", [1e-3, 1e-2])
+@pytest.mark.parametrize(("scenario", "resolution"), [("4.3a", 1), ("4.3b", 2)])
+def test_coupled_as_in_the_native_program(
+    pair: Pair, tmp_path: Path, scenario: str, resolution: int, step: float
+) -> None:
+    """The example gives the numbers of the project's own master, to rounding, over 30 s."""
+    ours = couple.couple(pair.plant.parent, step, **{"ik.resolution": resolution})
+    program("simulate", scenario, "--step", str(step), "--out", str(tmp_path))
+    with (tmp_path / f"{scenario}.csv").open(newline="") as file:
+        header, *rows = csv.reader(file)
+    native = dict(zip(header, np.array(rows, dtype=float).T))
+    assert set(ours) <= set(native)
+    for name, values in ours.items():
+        np.testing.assert_allclose(values, native[name], rtol=0, atol=1e-12, err_msg=name)
+    assert np.max(np.abs(native["base.y"])) > 0.09
+
+
+def test_example_as_printed_in_the_readme(pair: Pair) -> None:
+    picture = pair.plant.parent / "couple.png"
+    picture.unlink(missing_ok=True)
+    run = subprocess.run(
+        [sys.executable, ROOT / "examples" / "couple.py", pair.plant.parent],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert "minimum norm: UAV up to 109.8 mm to the right" in run.stdout, run.stdout
+    assert "extended Jacobian: UAV up to 7.4 mm to the right" in run.stdout, run.stdout
+    assert picture.read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize("unit", ["controller", "plant"])
+def test_command_line_of_fmpy(pair: Pair, tmp_path: Path, unit: str) -> None:
+    fmpy = [sys.executable, "-m", "fmpy"]
+    fmu = shutil.copy(getattr(pair, unit), tmp_path)
+    validated = subprocess.run([*fmpy, "validate", fmu], capture_output=True, text=True)
+    assert validated.returncode == 0, validated.stdout + validated.stderr
+    result = tmp_path / "result.csv"
+    options = ["--stop-time", "1", "--output-interval", "0.01", "--output-file", result]
+    simulated = subprocess.run([*fmpy, "simulate", fmu, *options], capture_output=True, text=True)
+    assert simulated.returncode == 0, simulated.stdout + simulated.stderr
+    header, *rows = csv.reader(result.read_text().splitlines())
+    assert len(rows) == 101
+    outputs = {
+        v.name for v in read_model_description(fmu).modelVariables if v.causality == "output"
+    }
+    assert set(header) == {"time", *outputs}

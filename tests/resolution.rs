@@ -1,0 +1,154 @@
+//! From tasks to rates, against textbook decompositions.
+
+#![allow(clippy::unwrap_used)] // in helpers, too
+
+mod common;
+
+use common::random::Random;
+use common::{assert_close, cases};
+use nalgebra::{DMatrix, DVector, Dyn, SMatrix, SVD, SVector};
+use proptest::prelude::*;
+use uam::controller::{PATH_THRESHOLD, Resolved, Task, resolve};
+use uam::planar::{Vec2, vec2};
+
+/// Length of the stretched arm.
+const REACH: f64 = 0.5;
+
+struct Problem<const N: usize> {
+    path: SMatrix<f64, 2, N>,
+    velocity: Vec2,
+    task: Task<N>,
+}
+
+fn problem<const N: usize>(random: &mut Random) -> Problem<N> {
+    Problem {
+        path: SMatrix::from_fn(|_, _| random.about_zero(0.3)),
+        velocity: random.vector(0.3),
+        task: Task { row: SVector::from_fn(|_, _| random.about_zero(0.3)), value: random.about_zero(0.1) },
+    }
+}
+
+impl<const N: usize> Problem<N> {
+    fn svd(&self) -> SVD<f64, Dyn, Dyn> {
+        DMatrix::from_fn(2, N, |row, column| self.path[(row, column)]).svd(true, true)
+    }
+
+    /// Path and task in one matrix.
+    fn extended(&self) -> (DMatrix<f64>, DVector<f64>) {
+        let row = |row: usize, i: usize| if row < 2 { self.path[(row, i)] } else { self.task.row[i] };
+        let right = DVector::from_vec(vec![self.velocity.x, self.velocity.y, self.task.value]);
+        (DMatrix::from_fn(3, N, row), right)
+    }
+
+    fn resolve(&self, with_task: bool) -> Resolved<N> {
+        resolve(&self.path, self.velocity, with_task.then_some(&self.task), REACH)
+    }
+}
+
+/// Away from singularities: the pseudo-inverse (N = 2..7).
+fn check_minimum_norm<const N: usize>(random: &mut Random) {
+    let problem = problem::<N>(random);
+    let svd = problem.svd();
+    let smallest = svd.singular_values.min();
+    let found = problem.resolve(false);
+    assert_close(&[found.min_singular_value], &[smallest], 1e-13, "smallest singular value");
+    assert_eq!(found.path_damped, smallest < PATH_THRESHOLD * REACH);
+    if smallest > PATH_THRESHOLD * REACH {
+        let expected =
+            svd.pseudo_inverse(0.0).unwrap() * DVector::from_vec(vec![problem.velocity.x, problem.velocity.y]);
+        assert_close(found.rate.as_slice(), expected.as_slice(), 1e-9, "rate");
+        assert!(!found.task_damped);
+    }
+}
+
+/// Path and task exactly; for N = 3 the solution of the extended Jacobian, for more its pseudo-inverse.
+fn check_extended<const N: usize>(random: &mut Random) {
+    let problem = problem::<N>(random);
+    let (matrix, right) = problem.extended();
+    let smallest = matrix.singular_values().min();
+    let found = problem.resolve(true);
+    if smallest > PATH_THRESHOLD * REACH {
+        assert!(!found.path_damped && !found.task_damped);
+        let expected = if N == 3 {
+            matrix.clone().lu().solve(&right).unwrap()
+        } else {
+            matrix.clone().svd(true, true).pseudo_inverse(0.0).unwrap() * &right
+        };
+        assert_close(found.rate.as_slice(), expected.as_slice(), 1e-9, "rate");
+    }
+}
+
+/// Everything that can degenerate: no rank at all, parallel or equal columns, the task inside the path's rows.
+fn check_bounded<const N: usize>(random: &mut Random) {
+    let mut problem = problem::<N>(random);
+    let scale = 10_f64.powf(random.between(-200.0, 0.0));
+    match (random.unit() * 6.0) as u32 {
+        0 => problem.path.fill(0.0),
+        1 => problem.path.row_mut(0).fill(0.0),
+        2 => problem.path = problem.path.map(|_| 0.2),
+        3 => problem.path.set_row(1, &(problem.path.row(0) * -2.0)),
+        4 => problem.path *= scale,
+        _ => {
+            let second = problem.path.row(0) * (1.0 + scale);
+            problem.path.set_row(1, &second);
+        }
+    }
+    match (random.unit() * 4.0) as u32 {
+        0 => problem.task.row.fill(0.0),
+        1 => problem.task.row = problem.path.row(0).transpose(),
+        2 => problem.task.row *= scale,
+        _ => {}
+    }
+    for with_task in [false, true] {
+        let found = problem.resolve(with_task);
+        assert!(found.rate.iter().all(|rate| rate.is_finite()), "{found:?}");
+        assert!(found.min_singular_value.is_finite() && found.min_singular_value >= 0.0);
+    }
+    // The worst gain of damped least squares, 1 / (2 x lambda) at full damping, somewhat more on the way there.
+    let found = problem.resolve(false);
+    let bound = problem.velocity.norm() / (PATH_THRESHOLD * REACH);
+    assert!(found.rate.norm() <= 1.01 * bound, "{} of {bound}", found.rate.norm());
+}
+
+macro_rules! for_sizes {
+    ($check:ident, $random:expr, $($n:literal)+) => {{ $($check::<$n>($random);)+ }};
+}
+
+proptest! {
+    #![proptest_config(cases(200))]
+
+    #[test]
+    fn without_a_task_it_is_the_pseudo_inverse(seed: u64) {
+        for_sizes!(check_minimum_norm, &mut Random(seed), 2 3 4 5 6 7);
+    }
+
+    #[test]
+    fn with_a_task_it_is_the_extended_jacobian(seed: u64) {
+        for_sizes!(check_extended, &mut Random(seed), 3 4 5 6 7);
+    }
+
+    #[test]
+    fn rates_stay_bounded_at_singularities(seed: u64) {
+        for_sizes!(check_bounded, &mut Random(seed), 1 2 3 4 5 6 7);
+    }
+}
+
+/// A stretched arm of two links along y moves along x only: v_x is met by minimum norm, v_y is given up.
+#[test]
+fn the_stretched_arm_gives_up_what_it_cannot_do() {
+    let path = SMatrix::<f64, 2, 2>::from_columns(&[vec2(0.26, 0.0), vec2(0.13, 0.0)]);
+    let found = resolve(&path, vec2(0.1, 0.1), None, 0.26);
+    let factor = 0.1 / (0.26_f64.powi(2) + 0.13_f64.powi(2));
+    assert_close(found.rate.as_slice(), &[0.26 * factor, 0.13 * factor], 1e-14, "rate");
+    assert!(found.path_damped && found.min_singular_value == 0.0);
+}
+
+/// A task that asks for what the path already fixes is damped away, and the path is followed all the same.
+#[test]
+fn a_task_that_contradicts_the_path_gives_way() {
+    let path = SMatrix::<f64, 2, 3>::from_columns(&[vec2(0.3, 0.1), vec2(0.1, 0.2), vec2(-0.1, 0.2)]);
+    let task = Task { row: path.row(0).transpose(), value: 1.0 };
+    let found = resolve(&path, vec2(0.1, -0.1), Some(&task), REACH);
+    assert!(found.task_damped && !found.path_damped);
+    assert_close((path * found.rate).as_slice(), &[0.1, -0.1], 1e-8, "velocity");
+}
