@@ -85,10 +85,10 @@ impl<const N: usize> Dynamics<N> {
             let mut covered = length;
             let mut step = self.internal_step::<TORQUES>(&flow, node, end, length, &scene);
             // Right after switching, rounding must not switch back for ever.
-            let within = if stuck { None } else { self.switches_within(&flow, node, length, &scene, &step) };
+            let within = if stuck { None } else { self.switches_within::<TORQUES>(&flow, node, length, &scene, &step) };
             if let Some(bracket) = within {
-                covered = self.switching_instant(&flow, node, bracket, &scene);
-                step = self.stepped(&flow, node, covered, &scene);
+                covered = self.switching_instant::<TORQUES>(&flow, node, bracket, &scene);
+                step = self.stepped::<TORQUES>(&flow, node, covered, &scene);
                 state.contact = !state.contact;
             }
             stuck = covered == 0.0;

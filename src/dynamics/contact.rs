@@ -26,7 +26,7 @@ impl<const N: usize> Dynamics<N> {
 
     /// Length of an internal step, no longer than `size`, within which contact switches, or `None` if it
     /// lasts, or stays away, all through `whole`, the step of length `size`.
-    pub(super) fn switches_within(
+    pub(super) fn switches_within<const TORQUES: bool>(
         &self,
         flow: &Flow,
         node: &Node<N>,
@@ -45,15 +45,21 @@ impl<const N: usize> Dynamics<N> {
         let start = self.margin(flow, node, scene).max(0.0);
         let rate = |flow: &Flow, node: &Node<N>| scene.side() * self.gap_rate(flow, self.turn(flow, scene), node);
         let dip = lowest([start, end], [rate(flow, node), rate(&whole.flow, &whole.node)], size)?;
-        let middle = self.stepped(flow, node, dip, scene);
+        let middle = self.stepped::<TORQUES>(flow, node, dip, scene);
         (self.margin(&middle.flow, &middle.node, scene) < -NO_GAP).then_some(dip)
     }
 
     /// The instant within an internal step of length `size` at which contact switches.
     #[cold]
-    pub(super) fn switching_instant(&self, flow: &Flow, node: &Node<N>, size: f64, scene: &Scene<'_, N>) -> f64 {
+    pub(super) fn switching_instant<const TORQUES: bool>(
+        &self,
+        flow: &Flow,
+        node: &Node<N>,
+        size: f64,
+        scene: &Scene<'_, N>,
+    ) -> f64 {
         let margin_after = |length: f64| {
-            let step = self.stepped(flow, node, length, scene);
+            let step = self.stepped::<TORQUES>(flow, node, length, scene);
             self.margin(&step.flow, &step.node, scene)
         };
         let (mut low, mut high) = ((0.0, self.margin(flow, node, scene)), (size, margin_after(size)));

@@ -138,7 +138,6 @@ impl<const N: usize> Dynamics<N> {
     }
 
     /// Rates of the flow, and of the impulses.
-    #[inline(always)]
     pub(super) fn law<const TORQUES: bool>(
         &self,
         y: &Flow,
@@ -152,7 +151,6 @@ impl<const N: usize> Dynamics<N> {
     }
 
     /// [`Dynamics::law`] for a base that moves with `v`, axes of the UAV frame.
-    #[inline(always)]
     pub(super) fn law_at<const TORQUES: bool>(
         &self,
         y: &Flow,

@@ -20,9 +20,15 @@ pub(super) struct Internal<const N: usize> {
 
 impl<const N: usize> Dynamics<N> {
     /// One step of length `size` from `flow`, where the arm is at `node`, under the motion of `scene`.
-    pub(super) fn stepped(&self, flow: &Flow, node: &Node<N>, size: f64, scene: &Scene<'_, N>) -> Internal<N> {
+    pub(super) fn stepped<const TORQUES: bool>(
+        &self,
+        flow: &Flow,
+        node: &Node<N>,
+        size: f64,
+        scene: &Scene<'_, N>,
+    ) -> Internal<N> {
         let end = scene.configuration_after(&self.vehicle, node, size);
-        self.internal_step::<true>(flow, node, end, size, scene)
+        self.internal_step::<TORQUES>(flow, node, end, size, scene)
     }
 
     /// One step of length `size` from `flow`, where the arm is at `node`, to where it is at `end`.
