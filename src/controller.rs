@@ -10,7 +10,7 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 pub use planner::Controller;
-pub use resolution::{PATH_THRESHOLD, Resolved, Task, resolve};
+pub use resolution::{PATH_THRESHOLD, PseudoInverse, Task, resolve};
 
 use crate::bytes::Memory;
 use crate::error::Result;

@@ -8,7 +8,7 @@ use common::random::Random;
 use common::{assert_close, cases};
 use nalgebra::{DMatrix, DVector, Dyn, SMatrix, SVD, SVector};
 use proptest::prelude::*;
-use uam::controller::{PATH_THRESHOLD, Resolved, Task, resolve};
+use uam::controller::{PATH_THRESHOLD, PseudoInverse, Task, resolve};
 use uam::planar::{Vec2, vec2};
 
 /// Length of the stretched arm.
@@ -40,7 +40,7 @@ impl<const N: usize> Problem<N> {
         (DMatrix::from_fn(3, N, row), right)
     }
 
-    fn resolve(&self, with_task: bool) -> Resolved<N> {
+    fn resolve(&self, with_task: bool) -> PseudoInverse<N> {
         resolve(&self.path, self.velocity, with_task.then_some(&self.task), REACH)
     }
 }

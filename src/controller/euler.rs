@@ -7,10 +7,9 @@ use nalgebra::SVector;
 
 use super::Controller;
 use super::planner::Plan;
-use super::resolution::{Task, resolve};
+use super::resolution::{Problem, Resolved, Task};
 use super::response::{Response, moment_impulse};
 use crate::dynamics::{Dynamics, Loads, Situation, State, in_inertial_frame};
-use crate::parameters::Resolution;
 use crate::planar::Vec2;
 
 /// The explicit part of a step: momentum at its end, and how the system answers to rates.
@@ -63,15 +62,14 @@ impl<const N: usize> Controller<N> {
         let response = &explicit.response;
         let resting = explicit.end(dynamics, &SVector::zeros(), horizon);
         let wanted = explicit.situation.turn.undo(velocity) - response.end_effector_free;
-        let task = Task { row: response.moment, value: -explicit.moment_impulse(dynamics, before, &resting) };
-        let second = (self.resolution == Resolution::ExtendedJacobian).then_some(&task);
-        let resolved = resolve(&response.jacobian, wanted, second, dynamics.vehicle.reach());
-        let (rate, status) = self.limited(&resolved);
+        let moment = Task { row: response.moment, value: -explicit.moment_impulse(dynamics, before, &resting) };
+        let Resolved { rate, status, min_singular_value } =
+            self.resolver.solve(&Problem { path: response.jacobian, velocity: wanted, moment });
         let end = explicit.end(dynamics, &rate, horizon);
         Plan {
             rate,
             status,
-            min_singular_value: resolved.min_singular_value,
+            min_singular_value,
             velocity_residual: (response.jacobian * rate - wanted).norm(),
             moment_residual: explicit.moment_impulse(dynamics, before, &end) / horizon,
             end: dynamics.situation(end),

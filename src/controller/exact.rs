@@ -6,12 +6,11 @@
 //! minimum norm would let motion in the null space grow without bound.
 
 use super::planner::Plan;
-use super::resolution::{Task, resolve};
+use super::resolution::{Problem, Task};
 use super::response::moment_impulse;
 use super::{Controller, Status};
 use crate::dynamics::{Loads, Motion};
 use crate::error::Result;
-use crate::parameters::Resolution;
 use crate::planar::Vec2;
 
 /// Iterations of a plan at most; two do normally.
@@ -45,7 +44,7 @@ impl<const N: usize> Controller<N> {
             plan.moment_residual = moment / horizon;
             let missing = target - plan.end.place(plan.end.node.posture.end_effector);
             let miss = missing.norm();
-            let moment_free = self.resolution != Resolution::ExtendedJacobian || moment.abs() <= NO_IMPULSE;
+            let moment_free = !self.resolver.cancels_moment() || moment.abs() <= NO_IMPULSE;
             if iteration > 0 {
                 if (miss <= ON_REFERENCE && moment_free) || (iteration == ITERATIONS && miss <= INEXACT) {
                     return Ok(plan);
@@ -60,11 +59,10 @@ impl<const N: usize> Controller<N> {
 
             let response = self.response(&plan.end);
             let velocity = response.jacobian * plan.rate + plan.end.turn.undo(missing / horizon);
-            let task = Task { row: response.moment, value: response.moment.dot(&plan.rate) - moment };
-            let wanted = (self.resolution == Resolution::ExtendedJacobian).then_some(&task);
-            let resolved = resolve(&response.jacobian, velocity, wanted, dynamics.vehicle.reach());
+            let moment = Task { row: response.moment, value: response.moment.dot(&plan.rate) - moment };
+            let resolved = self.resolver.solve(&Problem { path: response.jacobian, velocity, moment });
+            (plan.rate, plan.status) = (resolved.rate, resolved.status);
             plan.min_singular_value = resolved.min_singular_value;
-            (plan.rate, plan.status) = self.limited(&resolved);
         }
         match nearest {
             Some((_, nearest)) if plan.status == Status::Ok => Ok(Plan { status: Status::Inexact, ..nearest }),

@@ -5,7 +5,7 @@
 
 use nalgebra::SVector;
 
-use super::resolution::Resolved;
+use super::resolution::Resolver;
 use super::response::Response;
 use super::{Inputs, Outputs, Planner, Rates, Status};
 use crate::autopilot::AutopilotMode;
@@ -71,7 +71,7 @@ impl<const N: usize> Plan<N> {
 #[derive(Debug, Clone)]
 pub struct Controller<const N: usize> {
     pub(super) dynamics: Dynamics<N>,
-    pub(super) resolution: Resolution,
+    pub(super) resolver: Resolver<N>,
     /// The prediction.
     pub(super) situation: Situation<N>,
     /// Rates sent.
@@ -82,7 +82,6 @@ pub struct Controller<const N: usize> {
     sample_time: f64,
     grasp_time: f64,
     reference: Reference,
-    rate_limit: SVector<f64, N>,
     /// Where the end effector starts.
     origin: Vec2,
     /// Where the reference was expected at the end of the planned interval.
@@ -130,15 +129,14 @@ impl<const N: usize> Controller<N> {
         }
         let situation = dynamics.start(parameters);
         let origin = situation.node.posture.end_effector;
-        let mut controller = Self {
-            resolution: ik.resolution,
+        Ok(Self {
+            resolver: Resolver::new(&dynamics.vehicle, parameters),
             discretization: ik.discretization,
             sample_time: ik.sample_time,
             grasp_time: parameters.payload.grasp_time,
             reference: parameters.reference.clone(),
             rate: SVector::zeros(),
             rate_before: SVector::zeros(),
-            rate_limit: SVector::zeros(),
             planned_at: 0.0,
             horizon: ik.sample_time,
             planned_end: situation,
@@ -146,17 +144,12 @@ impl<const N: usize> Controller<N> {
             situation,
             origin,
             aim: origin,
-        };
-        controller.tune(parameters);
-        Ok(controller)
+        })
     }
 
     fn tune(&mut self, parameters: &Parameters) {
         self.dynamics.tune(&parameters.autopilot);
-        // The counterweight holds still and needs no limit.
-        self.rate_limit = SVector::from_fn(|i, _| {
-            if i < self.dynamics.vehicle.links { parameters.joints[i].rate_limit } else { f64::INFINITY }
-        });
+        self.resolver.tune(&self.dynamics.vehicle, parameters);
     }
 
     /// Takes the payload over in the prediction if it is time: the host is told at the same instant.
@@ -237,20 +230,6 @@ impl<const N: usize> Controller<N> {
         if self.dynamics.vehicle.counterweight.is_some() { response.holding(N - 1) } else { response }
     }
 
-    /// Scales rates down so that none exceeds its limit, and sums up how they came about.
-    pub(super) fn limited(&self, resolved: &Resolved<N>) -> (SVector<f64, N>, Status) {
-        let excess = resolved.rate.component_div(&self.rate_limit).amax();
-        if excess > 1.0 {
-            return (resolved.rate / excess, Status::RateLimited);
-        }
-        let status = match (resolved.path_damped, resolved.task_damped) {
-            (true, _) => Status::PathDamped,
-            (false, true) => Status::TaskDamped,
-            (false, false) => Status::Ok,
-        };
-        (resolved.rate, status)
-    }
-
     /// Advances the prediction by `size` \[s\] at the rates sent.
     fn predict(&mut self, t: f64, size: f64) -> Result<()> {
         // The plan has already been there, if the host makes the step that it was made for.
@@ -286,7 +265,7 @@ impl<const N: usize> Memory for Controller<N> {
         // Without "..": whoever adds a field decides here whether it follows from the parameters.
         let Self {
             dynamics: _,
-            resolution: _,
+            resolver: _,
             situation,
             rate,
             rate_before,
@@ -294,7 +273,6 @@ impl<const N: usize> Memory for Controller<N> {
             sample_time: _,
             grasp_time: _,
             reference: _,
-            rate_limit: _,
             origin: _,
             aim,
             planned_at,

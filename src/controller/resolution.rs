@@ -1,20 +1,20 @@
-//! From tasks to rates: the path first, then one more task in the rates that do not disturb the path.
+//! From what is asked of an interval to rates: the one place where the method is chosen.
 //!
-//! Away from singular configurations this is the thesis' solution, minimum norm without the second task
-//! (1.8) and the extended Jacobian with it (3.26); but it says which of the two gives way where they
-//! contradict each other, and stays bounded there (damped least squares, Y. Nakamura and H. Hanafusa,
-//! J. Dyn. Sys. Meas. Control 108 (1986) 163-171, in the weak direction only: A. A. Maciejewski and
-//! C. A. Klein, J. Robotic Systems 5 (1988) 527-552).
+//! Whatever the discretization, it hands over the same linear [`Problem`]; each method stands in a file of its
+//! own and answers with [`Resolved`].
+
+mod extended_jacobian;
+mod minimum_norm;
+mod pseudo_inverse;
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::planar::{Vec2, cross, perp};
+pub use pseudo_inverse::{PATH_THRESHOLD, PseudoInverse, resolve};
 
-/// Singular values of the path below this share of the arm's reach are damped.
-pub const PATH_THRESHOLD: f64 = 2e-2;
-
-/// The second task is damped where less than this share of its row is left beside the path.
-const TASK_THRESHOLD: f64 = 1e-2;
+use super::Status;
+use crate::parameters::{Parameters, Resolution};
+use crate::planar::Vec2;
+use crate::vehicle::Vehicle;
 
 /// One scalar equation `row . q_dot = value`.
 #[derive(Debug, Clone, Copy)]
@@ -25,70 +25,74 @@ pub struct Task<const N: usize> {
     pub value: f64,
 }
 
-/// Rates with what had to be given up for them.
+/// What is asked of the rates of one interval, linear in them.
 #[derive(Debug, Clone, Copy)]
-pub struct Resolved<const N: usize> {
+pub(super) struct Problem<const N: usize> {
+    /// Generalized Jacobian \[m\].
+    pub path: SMatrix<f64, 2, N>,
+    /// `path` * rate = `velocity` follows the path \[m/s\].
+    pub velocity: Vec2,
+    /// The rates that meet it exert no moment on the UAV in the mean: an impulse \[N m s\].
+    pub moment: Task<N>,
+}
+
+/// Rates with how they came about.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Resolved<const N: usize> {
     /// Rates of the coordinates \[rad/s, m/s\].
     pub rate: SVector<f64, N>,
+    /// What had to be given up for them.
+    pub status: Status,
     /// Smallest singular value of the path's matrix \[m\].
     pub min_singular_value: f64,
-    /// Whether the path is followed in part only.
-    pub path_damped: bool,
-    /// Whether the second task is met in part only.
-    pub task_damped: bool,
 }
 
-/// Smallest rates with `path` * rate = `velocity` and, if possible beside it, with `task`.
-///
-/// `path`: 2 x N \[m\], `velocity`: \[m/s\], `reach`: length of the stretched arm \[m\].
-#[must_use]
-pub fn resolve<const N: usize>(
-    path: &SMatrix<f64, 2, N>,
-    velocity: Vec2,
-    task: Option<&Task<N>>,
+/// The chosen method with its settings.
+#[derive(Debug, Clone)]
+pub(super) struct Resolver<const N: usize> {
+    kind: Resolution,
+    /// Length of the stretched arm \[m\].
     reach: f64,
-) -> Resolved<N> {
-    // The Gram matrix J J^T; its determinant as a sum of squares (Cauchy-Binet) does not cancel.
-    let (x, y) = (path.row(0), path.row(1));
-    let (xx, xy, yy) = (x.norm_squared(), x.dot(&y), y.norm_squared());
-    let mut determinant = 0.0;
-    for i in 0..N {
-        for j in 0..i {
-            determinant += cross(path.column(i).into(), path.column(j).into()).powi(2);
+    rate_limit: SVector<f64, N>,
+}
+
+impl<const N: usize> Resolver<N> {
+    pub fn new(vehicle: &Vehicle<N>, parameters: &Parameters) -> Self {
+        let mut resolver =
+            Self { kind: parameters.ik.resolution, reach: vehicle.reach(), rate_limit: SVector::zeros() };
+        resolver.tune(vehicle, parameters);
+        resolver
+    }
+
+    /// Takes over what may change during a run.
+    pub fn tune(&mut self, vehicle: &Vehicle<N>, parameters: &Parameters) {
+        // The counterweight holds still and needs no limit.
+        self.rate_limit =
+            SVector::from_fn(|i, _| if i < vehicle.links { parameters.joints[i].rate_limit } else { f64::INFINITY });
+    }
+
+    /// Whether the method asks for rates without moment on the UAV.
+    pub fn cancels_moment(&self) -> bool {
+        self.kind == Resolution::ExtendedJacobian
+    }
+
+    /// The rates that the method chooses.
+    pub fn solve(&self, problem: &Problem<N>) -> Resolved<N> {
+        match self.kind {
+            Resolution::MinimumNorm => self.limited(&minimum_norm::solve(problem, self.reach)),
+            Resolution::ExtendedJacobian => self.limited(&extended_jacobian::solve(problem, self.reach)),
         }
     }
-    let largest = 0.5 * (xx + yy) + (0.25 * (xx - yy) * (xx - yy) + xy * xy).sqrt();
-    let smallest = if largest > 0.0 { determinant / largest } else { 0.0 };
 
-    // Its eigenvectors: the directions in which the arm moves easily and hardly. Each is damped on its own.
-    let strong = if xx > yy { Vec2::new(largest - yy, xy) } else { Vec2::new(xy, largest - xx) };
-    let strong = strong.try_normalize(f64::MIN_POSITIVE).unwrap_or_else(Vec2::x);
-    let weak = perp(strong);
-    let threshold = PATH_THRESHOLD * reach;
-    let min_singular_value = smallest.sqrt();
-    let damping_weak = damping(min_singular_value, threshold);
-    let (gain_strong, gain_weak) =
-        (1.0 / (largest + damping(largest.sqrt(), threshold)), 1.0 / (smallest + damping_weak));
-    // J^T (J J^T + damping)^-1 w.
-    let lift =
-        |w: Vec2| path.transpose() * (strong * (strong.dot(&w) * gain_strong) + weak * (weak.dot(&w) * gain_weak));
-
-    let mut rate = lift(velocity);
-    let mut task_damped = false;
-    if let Some(task) = task {
-        let free = task.row - lift(path * task.row);
-        let size = task.row.norm();
-        let share = free.norm() / size.max(f64::MIN_POSITIVE);
-        let damping = damping(share, TASK_THRESHOLD) * size * size;
-        task_damped = damping > 0.0;
-        let missing = task.value - task.row.dot(&rate);
-        rate += free * (missing / (free.norm_squared() + damping).max(f64::MIN_POSITIVE));
+    /// Scales rates down so that none exceeds its limit, and sums up how they came about.
+    fn limited(&self, found: &PseudoInverse<N>) -> Resolved<N> {
+        let excess = found.rate.component_div(&self.rate_limit).amax();
+        let status = match (excess > 1.0, found.path_damped, found.task_damped) {
+            (true, ..) => Status::RateLimited,
+            (false, true, _) => Status::PathDamped,
+            (false, false, true) => Status::TaskDamped,
+            (false, false, false) => Status::Ok,
+        };
+        Resolved { rate: found.rate / excess.max(1.0), status, min_singular_value: found.min_singular_value }
     }
-    Resolved { rate, min_singular_value, path_damped: damping_weak > 0.0, task_damped }
-}
-
-/// Square of the damping factor: grows smoothly from 0 at the threshold to its square at a singularity.
-fn damping(singular_value: f64, threshold: f64) -> f64 {
-    let share = singular_value / threshold;
-    if share < 1.0 { threshold * threshold * (1.0 - share) * (1.0 - share) } else { 0.0 }
 }
