@@ -1,7 +1,5 @@
 //! Hover control of altitude and roll (thesis 1.2.3).
 
-use serde::{Deserialize, Serialize};
-
 use crate::options;
 
 options! {
@@ -17,7 +15,7 @@ options! {
 }
 
 /// Gains of a PID law, SI units.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gains {
     /// Proportional gain.
     pub kp: f64,
@@ -28,7 +26,7 @@ pub struct Gains {
 }
 
 /// Settings of the hover control.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Autopilot {
     /// Kind of control.
     pub mode: AutopilotMode,

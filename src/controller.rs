@@ -7,7 +7,6 @@ mod resolution;
 mod response;
 
 use nalgebra::Vector3;
-use serde::{Deserialize, Serialize};
 
 pub use planner::Controller;
 pub use resolution::{PATH_THRESHOLD, PseudoInverse, Task, resolve};
@@ -38,7 +37,7 @@ options! {
 }
 
 /// The wanted motion of the end effector, if the reference is external; inertial frame.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Inputs {
     /// Position \[m\].
     pub position: Vec2,
@@ -50,7 +49,7 @@ pub struct Inputs {
 
 /// Commands for the coming interval and what the prediction says. Joints stand first, the
 /// counterweight after the last joint of the structure.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Outputs {
     /// Rates \[rad/s, m/s\].
     pub rate_command: [f64; MAX_COORDINATES],
@@ -79,7 +78,7 @@ pub struct Outputs {
 }
 
 /// How fast outputs change whose rate is no output itself; predictions: left limits.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Rates {
     /// Wanted acceleration of the end effector now \[m/s2\].
     pub reference_velocity: Vec2,
@@ -127,6 +126,12 @@ pub trait Planner: Memory + Send {
 
     /// How fast the outputs at time `t`, the present one counted from the start, change.
     fn rates(&self, inputs: &Inputs, t: f64) -> Rates;
+
+    /// Whether what was taken off a tape can be the memory of a run.
+    ///
+    /// # Errors
+    /// Names a quantity that cannot be.
+    fn check_memory(&self) -> Result<()>;
 
     /// A copy that continues on its own.
     fn clone_box(&self) -> Box<dyn Planner>;

@@ -16,7 +16,6 @@ mod runge_kutta;
 use std::ops::{Add, Mul};
 
 use nalgebra::{SVector, Vector3};
-use serde::{Deserialize, Serialize};
 
 pub use instant::{Instant, Trend};
 pub use law::Node;
@@ -26,6 +25,7 @@ pub use rates::{Rates, Trace};
 use crate::autopilot::{Autopilot, AutopilotMode, Gains};
 use crate::error::{Error, Result};
 use crate::kinematics::Configuration;
+use crate::memory;
 use crate::momentum::Twist;
 use crate::parameters::{BaseModel, Parameters, Structure, Support};
 use crate::planar::{Turn, Vec2};
@@ -40,7 +40,7 @@ const MOST_SAMPLES: f64 = 1e15;
 /// State of an aerial manipulator with `N` coordinates, inertial frame.
 ///
 /// Velocities and rates are those just before the present instant; they may jump at it.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy)]
 pub struct State<const N: usize> {
     /// Pose of the UAV: x, y \[m\], roll \[rad\].
     pub pose: Vector3<f64>,
@@ -63,6 +63,8 @@ pub struct State<const N: usize> {
     /// Number of samples that the autopilot has taken.
     pub samples: u64,
 }
+
+memory!(State<N> { pose, momentum, integrals, position, velocity, rate, held, contact, sampled, samples });
 
 impl<const N: usize> State<N> {
     /// At rest at the origin, with the coordinates `position`.
@@ -120,7 +122,7 @@ impl<const N: usize> State<N> {
 }
 
 /// A state with what follows from it and is worth keeping: attitude and the sums over the arm.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy)]
 pub struct Situation<const N: usize> {
     /// The state.
     pub state: State<N>,
@@ -129,6 +131,8 @@ pub struct Situation<const N: usize> {
     /// The arm, moving at the rates of the state.
     pub node: Node<N>,
 }
+
+memory!(Situation<N> { state, turn, node });
 
 impl<const N: usize> Situation<N> {
     /// Motion of the base in the axes of the UAV frame.
@@ -186,7 +190,7 @@ impl<const N: usize> Motion<N> {
 }
 
 /// Integrals over a step, from which mean forces and torques follow.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy)]
 pub struct Impulse<const N: usize> {
     /// Of the rotors' force on the UAV \[N s\].
     pub thrust: Vec2,
@@ -200,6 +204,8 @@ pub struct Impulse<const N: usize> {
     /// x outboard momentum \[N m s\].
     pub outboard: SVector<f64, N>,
 }
+
+memory!(Impulse<N> { thrust, axial_thrust, torque, support, outboard });
 
 impl<const N: usize> Impulse<N> {
     /// No impulse.

@@ -54,7 +54,7 @@ pub enum Error {
     },
     /// Bytes that do not hold what was written.
     #[error("the bytes do not hold the memory of a simulation: {0}")]
-    Bytes(#[from] postcard::Error),
+    Bytes(&'static str),
     /// A memory that no simulation has.
     #[error("no simulation is in this state: {quantity} = {value}")]
     Impossible {

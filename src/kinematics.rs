@@ -4,21 +4,21 @@
 //! expressed in the UAV frame, where it depends on the joint angles only.
 
 use nalgebra::SVector;
-use serde::{Deserialize, Serialize};
 
-use crate::bytes;
+use crate::memory;
 use crate::planar::{Turn, Vec2, vec2};
 use crate::vehicle::Vehicle;
 
 /// A configuration of the arm in trigonometric form: cheap to advance by small angles.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy)]
 pub struct Configuration<const N: usize> {
     /// Turn of each link relative to the UAV.
-    #[serde(with = "bytes::array")]
     turn: [Turn; N],
     /// Position of the counterweight along the UAV's x axis \[m\].
     slide: f64,
 }
+
+memory!(Configuration<N> { turn, slide });
 
 impl<const N: usize> Configuration<N> {
     /// The configuration with coordinates `q` \[rad, m\].
@@ -48,13 +48,11 @@ impl<const N: usize> Configuration<N> {
 }
 
 /// Where everything is, in the UAV frame \[m\].
-#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy)]
 pub struct Posture<const N: usize> {
     /// Directions of the links.
-    #[serde(with = "bytes::array")]
     pub direction: [Vec2; N],
     /// Joints of the links.
-    #[serde(with = "bytes::array")]
     pub joint: [Vec2; N],
     /// End of the last link.
     pub end_effector: Vec2,
@@ -63,6 +61,8 @@ pub struct Posture<const N: usize> {
     /// Centre of mass of the counterweight.
     pub counterweight: Vec2,
 }
+
+memory!(Posture<N> { direction, joint, end_effector, payload, counterweight });
 
 impl<const N: usize> Posture<N> {
     /// The posture in a configuration.

@@ -7,21 +7,22 @@
 use std::ops::{Add, Mul, Sub};
 
 use nalgebra::SVector;
-use serde::{Deserialize, Serialize};
 
-use crate::bytes;
 use crate::kinematics::Posture;
+use crate::memory;
 use crate::planar::{Vec2, cross, perp, vec2};
 use crate::vehicle::Vehicle;
 
 /// A planar motion or load of the base: a vector in the plane and a component out of it.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Twist {
     /// Velocity \[m/s\], momentum \[N s\] or force \[N\].
     pub linear: Vec2,
     /// Angular velocity \[rad/s\], angular momentum \[N m s\] or moment \[N m\].
     pub angular: f64,
 }
+
+memory!(Twist { linear, angular });
 
 impl Twist {
     /// No motion, no load.
@@ -53,23 +54,23 @@ impl Mul<f64> for Twist {
 }
 
 /// The matrices H_b and H_m at one posture, in the axes of the UAV frame.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy)]
 pub struct MomentumMatrix<const N: usize> {
     /// Mass of the whole system \[kg\].
     pub mass: f64,
     /// First moment of the whole system about the UAV's centre of mass \[kg m\].
     pub first: Vec2,
     /// Columns of H_m.
-    #[serde(with = "bytes::array")]
     pub columns: [Twist; N],
     /// First moment of what lies outboard of each joint, about that joint \[kg m\].
-    #[serde(with = "bytes::array")]
     pub outboard_first: [Vec2; N],
     /// Moment of inertia of the whole system about its centre of mass, inverse \[1/(kg m2)\].
     compliance: f64,
     /// Moment of inertia of the whole system about the UAV's centre of mass \[kg m2\].
     inertia: f64,
 }
+
+memory!(MomentumMatrix<N> { mass, first, columns, outboard_first, compliance, inertia });
 
 impl<const N: usize> MomentumMatrix<N> {
     /// Sums up all masses, from the tip to the UAV.

@@ -40,7 +40,7 @@ macro_rules! options {
         pub enum $type:ident { $(#[doc = $description:literal] $variant:ident = $name:literal,)+ }
     ) => {
         #[doc = $about]
-        #[derive(Debug, Clone, Copy, PartialEq, Eq, ::serde::Serialize, ::serde::Deserialize)]
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
         pub enum $type { $(#[doc = $description] $variant,)+ }
 
         impl $crate::options::Choice for $type {

@@ -3,8 +3,6 @@
 
 use std::fmt;
 
-use serde::{Deserialize, Serialize};
-
 use crate::autopilot::Autopilot;
 use crate::error::{Error, Result};
 use crate::options;
@@ -107,7 +105,7 @@ impl fmt::Display for Structure {
 }
 
 /// Mass properties of the multicopter without arm and counterweight.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Uav {
     /// Mass \[kg\].
     pub mass: f64,
@@ -116,7 +114,7 @@ pub struct Uav {
 }
 
 /// Where the first joint sits in the UAV frame.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Mount {
     /// To the right of the UAV's centre of mass \[m\].
     pub x: f64,
@@ -125,7 +123,7 @@ pub struct Mount {
 }
 
 /// One link of the arm.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Link {
     /// Mass \[kg\].
     pub mass: f64,
@@ -138,7 +136,7 @@ pub struct Link {
 }
 
 /// One revolute joint.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Joint {
     /// Angle at the start \[rad\]; 0 continues the previous link, the first link hangs down.
     pub start: f64,
@@ -147,7 +145,7 @@ pub struct Joint {
 }
 
 /// The sliding counterweight, for instance the battery (thesis 3.8).
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Counterweight {
     /// Mass \[kg\].
     pub mass: f64,
@@ -160,7 +158,7 @@ pub struct Counterweight {
 }
 
 /// A point mass that the end effector picks up.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Payload {
     /// Mass \[kg\].
     pub mass: f64,
@@ -171,7 +169,7 @@ pub struct Payload {
 }
 
 /// The elastic support on which the payload rests (thesis 4.1).
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Support {
     /// Stiffness \[N/m\].
     pub stiffness: f64,
@@ -216,7 +214,7 @@ options! {
 }
 
 /// Settings of the inverse kinematics.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct InverseKinematics {
     /// Interval between two plans \[s\].
     pub sample_time: f64,
@@ -229,7 +227,7 @@ pub struct InverseKinematics {
 }
 
 /// Everything that describes a run.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Parameters {
     /// Acceleration of gravity \[m/s2\].
     pub gravity: f64,

@@ -1,7 +1,8 @@
 //! Vectors and rotations in the plane.
 
 use nalgebra::SVector;
-use serde::{Deserialize, Serialize};
+
+use crate::memory;
 
 /// A vector in the plane: right, up.
 pub type Vec2 = SVector<f64, 2>;
@@ -25,11 +26,13 @@ pub fn perp(a: Vec2) -> Vec2 {
 }
 
 /// A rotation in the plane, counter-clockwise.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Turn {
     cos: f64,
     sin: f64,
 }
+
+memory!(Turn { cos, sin });
 
 impl Turn {
     /// By no angle.

@@ -5,7 +5,6 @@ mod simulation;
 mod slopes;
 
 use nalgebra::Vector3;
-use serde::{Deserialize, Serialize};
 
 pub use simulation::Plant;
 pub use slopes::Slopes;
@@ -18,7 +17,7 @@ use crate::planar::Vec2;
 
 /// What comes from outside at a communication point. Joints stand first, the counterweight after the
 /// last joint of the structure.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Inputs {
     /// Rates at the beginning of the step \[rad/s, m/s\].
     pub rate_command: [f64; MAX_COORDINATES],
@@ -50,7 +49,7 @@ pub struct Inputs {
 
 /// What can be observed at a communication point: values at the end of the finished step, under the
 /// rates held in it. Inertial frame; wrenches and torques are means over the step.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Outputs {
     /// Pose of the UAV: x, y \[m\], roll \[rad\].
     pub pose: Vector3<f64>,
@@ -90,7 +89,7 @@ pub struct Outputs {
 
 /// How fast those observations change that are not means over the step and whose rate is no observation
 /// itself: left limits, per second; 0 before the first step.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Rates {
     /// Accelerations of joints and counterweight \[rad/s2, m/s2\].
     pub coordinates: [f64; MAX_COORDINATES],
@@ -128,6 +127,12 @@ pub trait Simulation: Memory + Send {
 
     /// How fast the outputs of the finished step change at its end.
     fn rates(&self) -> Rates;
+
+    /// Whether what was taken off a tape can be the memory of a run.
+    ///
+    /// # Errors
+    /// Names a quantity that cannot be.
+    fn check_memory(&self) -> Result<()>;
 
     /// A copy that continues on its own.
     fn clone_box(&self) -> Box<dyn Simulation>;

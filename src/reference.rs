@@ -1,7 +1,5 @@
 //! The wanted motion of the end effector, relative to where it starts.
 
-use serde::{Deserialize, Serialize};
-
 use crate::error::{Error, Result};
 use crate::options;
 use crate::planar::{Vec2, vec2};
@@ -32,7 +30,7 @@ options! {
 }
 
 /// A straight leg of a path: accelerates for `ramp`, cruises, brakes for `ramp`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Leg {
     /// When it begins, from the start of the run \[s\].
     pub start: f64,
@@ -94,7 +92,7 @@ impl Profile {
 }
 
 /// One turn on a circle, at rest before and after; the angle's acceleration is a sine, so continuous.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Circle {
     /// Diameter \[m\].
     pub diameter: f64,
@@ -116,7 +114,7 @@ pub struct Target {
 }
 
 /// The wanted motion of the end effector.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Reference {
     /// Which of the motions.
     pub kind: ReferenceKind,

@@ -9,7 +9,7 @@ use super::resolution::Resolver;
 use super::response::Response;
 use super::{Inputs, Outputs, Planner, Rates, Status};
 use crate::autopilot::AutopilotMode;
-use crate::bytes::{self, Memory};
+use crate::bytes::{Memory, Tape};
 use crate::dynamics::{Dynamics, Load, Loads, Motion, Situation};
 use crate::error::{Error, Result};
 use crate::options::Choice;
@@ -261,7 +261,7 @@ impl<const N: usize> Controller<N> {
 }
 
 impl<const N: usize> Memory for Controller<N> {
-    fn save(&self, bytes: &mut Vec<u8>) -> Result<()> {
+    fn pass(&mut self, tape: &mut Tape<'_>) {
         // Without "..": whoever adds a field decides here whether it follows from the parameters.
         let Self {
             dynamics: _,
@@ -279,19 +279,11 @@ impl<const N: usize> Memory for Controller<N> {
             horizon,
             planned_end,
         } = self;
-        bytes::write(&(situation, rate, rate_before, aim, planned_at, horizon, planned_end), bytes)
-    }
-
-    fn restore(&mut self, bytes: &mut &[u8]) -> Result<()> {
-        (self.situation, self.rate, self.rate_before, self.aim, self.planned_at, self.horizon, self.planned_end) =
-            bytes::read(bytes)?;
-        self.situation.state.check_memory()?;
-        self.planned_end.state.check_memory()?;
-        let times = [("time of the last plan", self.planned_at), ("length of the planned interval", self.horizon)];
-        match times.into_iter().find(|(_, value)| !value.is_finite()) {
-            Some((quantity, value)) => Err(Error::Impossible { quantity, value }),
-            None => Ok(()),
-        }
+        situation.pass(tape);
+        [rate, rate_before].into_iter().for_each(|rate| rate.pass(tape));
+        aim.pass(tape);
+        [planned_at, horizon].into_iter().for_each(|time| time.pass(tape));
+        planned_end.pass(tape);
     }
 }
 
@@ -326,6 +318,16 @@ impl<const N: usize> Planner for Controller<N> {
         };
         rates.predicted_position[..N].copy_from_slice(self.situation.state.rate.as_slice());
         rates
+    }
+
+    fn check_memory(&self) -> Result<()> {
+        self.situation.state.check_memory()?;
+        self.planned_end.state.check_memory()?;
+        let times = [("time of the last plan", self.planned_at), ("length of the planned interval", self.horizon)];
+        match times.into_iter().find(|(_, value)| !value.is_finite()) {
+            Some((quantity, value)) => Err(Error::Impossible { quantity, value }),
+            None => Ok(()),
+        }
     }
 
     fn clone_box(&self) -> Box<dyn Planner> {

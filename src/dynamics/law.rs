@@ -1,11 +1,11 @@
 //! The right-hand side: rates of pose, momentum and autopilot integrals.
 
 use nalgebra::{SVector, Vector3};
-use serde::{Deserialize, Serialize};
 
 use super::{Dynamics, Impulse, Load, Loads, Motion, State, in_inertial_frame};
 use crate::autopilot::AutopilotMode;
 use crate::kinematics::{Configuration, Posture};
+use crate::memory;
 use crate::momentum::{MomentumMatrix, Twist, outboard};
 use crate::planar::{Turn, Vec2, cross, perp, vec2};
 use crate::vehicle::Vehicle;
@@ -17,7 +17,7 @@ use crate::vehicle::Vehicle;
 pub(super) type Flow = SVector<f64, 8>;
 
 /// The arm at one instant, in the UAV frame.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy)]
 pub struct Node<const N: usize> {
     /// Joint angles in trigonometric form.
     pub configuration: Configuration<N>,
@@ -30,6 +30,8 @@ pub struct Node<const N: usize> {
     /// H_m q_dot.
     pub arm: Twist,
 }
+
+memory!(Node<N> { configuration, posture, matrix, rate, arm });
 
 impl<const N: usize> Node<N> {
     /// The arm in `configuration`, moving at `rate`.

@@ -1,11 +1,10 @@
 //! What acts from outside, besides gravity and support.
 
-use serde::{Deserialize, Serialize};
-
+use crate::memory;
 use crate::planar::{Vec2, vec2};
 
 /// What acts from outside at one instant.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Load {
     /// Force on the UAV at its centre of mass \[N\].
     pub base_force: Vec2,
@@ -26,6 +25,8 @@ pub struct Load {
     /// Torque of an external autopilot \[N m\].
     pub torque: f64,
 }
+
+memory!(Load { base_force, base_torque, tip_force, tip_torque, altitude, roll, thrust_feedforward, thrust, torque });
 
 /// What acts from outside during one step: it changes linearly, or not at all.
 #[derive(Debug, Clone, Copy, Default)]

@@ -1,15 +1,15 @@
 //! How fast velocities, momentum and forces change at the end of a step: what hosts ask for that extrapolate.
 
 use nalgebra::{SVector, Vector3};
-use serde::{Deserialize, Serialize};
 
 use super::{Dynamics, Load, Loads, Situation, in_inertial_frame};
 use crate::autopilot::AutopilotMode;
+use crate::memory;
 use crate::momentum::{Twist, inertial_load, tip_acceleration};
 use crate::planar::{Vec2, cross, vec2};
 
 /// What of a finished step decides how things change at its end.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy)]
 pub struct Trace<const N: usize> {
     /// Accelerations of the coordinates \[rad/s2, m/s2\].
     pub slope: SVector<f64, N>,
@@ -18,6 +18,8 @@ pub struct Trace<const N: usize> {
     /// Rates of thrust \[N/s\] and torque \[N m/s\]; 0 on an ideal carriage and between samples.
     pub control: Vec2,
 }
+
+memory!(Trace<N> { slope, acceleration, control });
 
 impl<const N: usize> Trace<N> {
     /// Nothing moves.

@@ -7,24 +7,23 @@ use std::slice;
 use super::c_types::Text;
 use super::error::Error;
 
+/// Most elements of a list. Hosts may name a variable more than once, and give more room than is needed; a
+/// length beyond this is a mistake, and believing it would mean to read whatever lies there.
+pub const LONGEST: usize = 1 << 16;
+
 /// The `count` elements at `data`. Nothing is read if `count` is 0.
 ///
 /// # Errors
-/// If there are more than `limit`, or the pointer is null or not aligned.
+/// If there are more than [`LONGEST`], or the pointer is null or not aligned.
 ///
 /// # Safety
 /// A pointer that is neither null nor misaligned must be good for `count` elements.
-pub unsafe fn list<'a, T>(
-    argument: &'static str,
-    data: *const T,
-    count: usize,
-    limit: usize,
-) -> Result<&'a [T], Error> {
+pub unsafe fn list<'a, T>(argument: &'static str, data: *const T, count: usize) -> Result<&'a [T], Error> {
     if count == 0 {
         return Ok(&[]);
     }
-    check_list(argument, data, count, limit)?;
-    // SAFETY: promised by the caller; `limit` is far below what a slice may span.
+    check_list(argument, data, count)?;
+    // SAFETY: promised by the caller; [`LONGEST`] is far below what a slice may span.
     Ok(unsafe { slice::from_raw_parts(data, count) })
 }
 
@@ -35,25 +34,20 @@ pub unsafe fn list<'a, T>(
 ///
 /// # Safety
 /// Like [`list`], and nothing else may use the elements during the call.
-pub unsafe fn list_mut<'a, T>(
-    argument: &'static str,
-    data: *mut T,
-    count: usize,
-    limit: usize,
-) -> Result<&'a mut [T], Error> {
+pub unsafe fn list_mut<'a, T>(argument: &'static str, data: *mut T, count: usize) -> Result<&'a mut [T], Error> {
     if count == 0 {
         return Ok(&mut []);
     }
-    check_list(argument, data, count, limit)?;
-    // SAFETY: promised by the caller; `limit` is far below what a slice may span.
+    check_list(argument, data, count)?;
+    // SAFETY: promised by the caller; [`LONGEST`] is far below what a slice may span.
     Ok(unsafe { slice::from_raw_parts_mut(data, count) })
 }
 
-fn check_list<T>(argument: &'static str, data: *const T, count: usize, limit: usize) -> Result<(), Error> {
-    if count > limit {
+fn check_list<T>(argument: &'static str, data: *const T, count: usize) -> Result<(), Error> {
+    if count > LONGEST {
         return Err(Error::Argument {
             argument,
-            expected: format!("a list of at most {limit} elements"),
+            expected: format!("a list of at most {LONGEST} elements"),
             found: format!("one of {count}"),
         });
     }

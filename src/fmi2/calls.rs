@@ -17,7 +17,7 @@ use super::component::{self, Component};
 use super::error::Error;
 use super::identity;
 use super::instance::{Instance, Scalar};
-use super::logger::{self, Category, Logger};
+use super::logger::{Category, Logger};
 use super::model::Model;
 use super::panics;
 use super::state::{Call, State};
@@ -109,7 +109,7 @@ pub unsafe fn set_debug_logging<M: Model>(
     // SAFETY: promised by the caller.
     unsafe {
         component::switch_logging::<M>(handle, |logger| {
-            let categories = arguments::list("categories", categories, count, logger::KNOWN)?;
+            let categories = arguments::list("categories", categories, count)?;
             let names: Result<Vec<_>, _> = categories.iter().map(|name| arguments::text("categories", *name)).collect();
             Ok(logger.switch(on.holds(), &names?)?)
         })
@@ -166,9 +166,8 @@ pub unsafe fn get<M: Model, T: Scalar>(
     // SAFETY: promised by the caller.
     unsafe {
         component::call::<M>(handle, T::GET, |instance| {
-            let limit = instance.variables().len();
-            let references = arguments::list("vr", references, count, limit)?;
-            instance.get(references, arguments::list_mut("value", values, count, limit)?)
+            let references = arguments::list("vr", references, count)?;
+            instance.get(references, arguments::list_mut("value", values, count)?)
         })
     }
 }
@@ -183,9 +182,8 @@ pub unsafe fn set<M: Model, T: Scalar>(
     // SAFETY: promised by the caller.
     unsafe {
         component::call::<M>(handle, T::SET, |instance| {
-            let limit = instance.variables().len();
-            let references = arguments::list("vr", references, count, limit)?;
-            instance.set(references, arguments::list("value", values, count, limit)?)
+            let references = arguments::list("vr", references, count)?;
+            instance.set(references, arguments::list("value", values, count)?)
         })
     }
 }
@@ -194,9 +192,7 @@ pub unsafe fn set<M: Model, T: Scalar>(
 pub unsafe fn text<M: Model>(handle: Handle, call: Call, references: *const ValueReference, count: c::Size) -> Status {
     // SAFETY: promised by the caller.
     unsafe {
-        component::call::<M>(handle, call, |instance| {
-            instance.no_text(call, arguments::list("vr", references, count, instance.variables().len())?)
-        })
+        component::call::<M>(handle, call, |instance| instance.no_text(call, arguments::list("vr", references, count)?))
     }
 }
 

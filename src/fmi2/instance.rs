@@ -9,7 +9,7 @@ mod derivatives;
 mod saved;
 mod values;
 
-pub use saved::{MOST_BYTES, Saved};
+pub use saved::Saved;
 pub use values::Scalar;
 
 /// Largest gap between the end of a step and the beginning of the next: a microsecond, because hosts

@@ -37,9 +37,6 @@ const UNUSED: [&str; 6] = [
     "logStatusPending",
 ];
 
-/// Number of category names that a host may pass.
-pub const KNOWN: usize = CATEGORIES.len() + UNUSED.len();
-
 impl Category {
     const EACH: [Self; 3] = [Self::Events, Self::StatusWarning, Self::StatusError];
 

@@ -2,9 +2,7 @@
 
 use std::fmt::{Debug, Display};
 
-use serde::Serialize;
-use serde::de::DeserializeOwned;
-
+use crate::bytes::{Memory, Tape};
 use crate::variables::Table;
 
 /// One call of doStep, in the host's time.
@@ -31,7 +29,9 @@ impl CommunicationStep {
 /// The host sees plain data, `Self::Data`: parameters, inputs and outputs, named by [`Model::table`].
 /// Inputs and tunable parameters may change between steps; a step reads them and writes the outputs.
 /// Setting an input changes no output before the next step.
-pub trait Model: Clone + Send + Sized + 'static {
+///
+/// What the simulation remembers beside these data passes by a tape when its state is written or read.
+pub trait Model: Memory + Clone + Send + Sized + 'static {
     /// Model identifier: name of the FMU and of the libraries in it.
     const IDENTIFIER: &'static str;
     /// One sentence on what the unit does.
@@ -42,7 +42,7 @@ pub trait Model: Clone + Send + Sized + 'static {
     /// What is chosen when an FMU is built and fixes its variables.
     type Structure: Copy + PartialEq + Debug + Display + Send + Sync + 'static;
     /// Parameters, inputs and outputs.
-    type Data: Clone + Send + Serialize + DeserializeOwned + 'static;
+    type Data: Clone + Send + 'static;
     /// What can go wrong; the text goes to the host's logger.
     type Error: Display;
 
@@ -74,16 +74,15 @@ pub trait Model: Clone + Send + Sized + 'static {
         let _ = (data, elapsed);
     }
 
-    /// Appends to `bytes` all that influences the future beside the data.
+    /// The simulation that was recorded on `tape`, which may hold anything; `data` is what went with it,
+    /// parameters and inputs within their bounds.
     ///
     /// # Errors
-    /// If it cannot be written.
-    fn save(&self, bytes: &mut Vec<u8>) -> Result<(), Self::Error>;
+    /// If data and tape are not those of a simulation. None that comes back may panic or hang later.
+    fn restore(structure: Self::Structure, data: &Self::Data, tape: &mut Tape<'_>) -> Result<Self, Self::Error>;
 
-    /// The simulation that [`Model::save`] wrote, from the front of `bytes`, which may be wrong; `data` is
-    /// what went with it, parameters and inputs within their bounds.
-    ///
-    /// # Errors
-    /// If data and bytes are not those of a simulation. None that comes back may panic or hang later.
-    fn restore(structure: Self::Structure, data: &Self::Data, bytes: &mut &[u8]) -> Result<Self, Self::Error>;
+    /// Passes by a tape what of the data influences the future although no variable names it.
+    fn pass_unnamed(data: &mut Self::Data, tape: &mut Tape<'_>) {
+        let _ = (data, tape);
+    }
 }

@@ -2,10 +2,9 @@
 
 use std::fmt;
 
-use serde::{Deserialize, Serialize};
-
 use super::{CommunicationStep, Model};
-use crate::bytes;
+use crate::bytes::{Memory, Tape};
+use crate::memory;
 use crate::options;
 use crate::options::Choice;
 use crate::unit;
@@ -48,7 +47,7 @@ impl fmt::Display for Size {
     }
 }
 
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Data {
     pub time: f64,
     pub gain: f64,
@@ -86,6 +85,8 @@ pub mod vr {
 pub struct Toy {
     position: f64,
 }
+
+memory!(Toy { position });
 
 impl Model for Toy {
     const IDENTIFIER: &'static str = "toy";
@@ -185,12 +186,14 @@ impl Model for Toy {
         Ok(())
     }
 
-    fn save(&self, bytes: &mut Vec<u8>) -> Result<(), String> {
-        bytes::write(&self.position, bytes).map_err(|error| error.to_string())
+    fn restore(_: Size, _: &Data, tape: &mut Tape<'_>) -> Result<Self, String> {
+        let mut toy = Self { position: 0.0 };
+        toy.pass(tape);
+        tape.check().map_err(|error| error.to_string())?;
+        Ok(toy)
     }
 
-    fn restore(_: Size, _: &Data, bytes: &mut &[u8]) -> Result<Self, String> {
-        let position = bytes::read(bytes).map_err(|error| error.to_string())?;
-        Ok(Self { position })
+    fn pass_unnamed(data: &mut Data, tape: &mut Tape<'_>) {
+        data.push.pass(tape);
     }
 }

@@ -2,9 +2,8 @@
 
 mod derivatives;
 
-use serde::{Deserialize, Serialize};
-
 use super::declare_time;
+use crate::bytes::{Memory, Tape};
 use crate::controller::{self, Inputs, Outputs, Rates};
 use crate::error::Error;
 use crate::fmi2::{CommunicationStep, Model};
@@ -14,7 +13,7 @@ use crate::unit;
 use crate::variables::{Bounds, Causality, Table, Variability};
 
 /// All that the host sees of the controller.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone)]
 pub struct Data {
     /// Independent variable \[s\].
     pub time: f64,
@@ -37,6 +36,12 @@ impl AsMut<Parameters> for Data {
 /// The controller unit.
 #[derive(Clone)]
 pub struct ControllerUnit(Box<dyn controller::Planner>);
+
+impl Memory for ControllerUnit {
+    fn pass(&mut self, tape: &mut Tape<'_>) {
+        self.0.pass(tape);
+    }
+}
 
 impl Model for ControllerUnit {
     const IDENTIFIER: &'static str = "uam_controller";
@@ -86,13 +91,11 @@ impl Model for ControllerUnit {
         data.rates = self.0.rates(&data.inputs, elapsed);
     }
 
-    fn save(&self, bytes: &mut Vec<u8>) -> Result<(), Error> {
-        self.0.save(bytes)
-    }
-
-    fn restore(structure: Structure, data: &Data, bytes: &mut &[u8]) -> Result<Self, Error> {
+    fn restore(structure: Structure, data: &Data, tape: &mut Tape<'_>) -> Result<Self, Error> {
         let mut planner = controller::without_plan(structure, &data.parameters)?;
-        planner.restore(bytes)?;
+        planner.pass(tape);
+        tape.check()?;
+        planner.check_memory()?;
         Ok(Self(planner))
     }
 }

@@ -2,9 +2,8 @@
 
 mod derivatives;
 
-use serde::{Deserialize, Serialize};
-
 use super::declare_time;
+use crate::bytes::{Memory, Tape};
 use crate::error::Error;
 use crate::fmi2::{CommunicationStep, Model};
 use crate::parameters::{self, Parameters, Structure};
@@ -14,7 +13,7 @@ use crate::unit;
 use crate::variables::{Bounds, Causality, Table, Variability};
 
 /// All that the host sees of the plant.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone)]
 pub struct Data {
     /// Independent variable \[s\].
     pub time: f64,
@@ -37,6 +36,12 @@ impl AsMut<Parameters> for Data {
 /// The plant unit.
 #[derive(Clone)]
 pub struct PlantUnit(Box<dyn plant::Simulation>);
+
+impl Memory for PlantUnit {
+    fn pass(&mut self, tape: &mut Tape<'_>) {
+        self.0.pass(tape);
+    }
+}
 
 impl Model for PlantUnit {
     const IDENTIFIER: &'static str = "uam_plant";
@@ -90,14 +95,16 @@ impl Model for PlantUnit {
         data.rates = self.0.rates();
     }
 
-    fn save(&self, bytes: &mut Vec<u8>) -> Result<(), Error> {
-        self.0.save(bytes)
+    fn restore(structure: Structure, data: &Data, tape: &mut Tape<'_>) -> Result<Self, Error> {
+        let mut simulation = plant::new(structure, &data.parameters)?;
+        simulation.pass(tape);
+        tape.check()?;
+        simulation.check_memory()?;
+        Ok(Self(simulation))
     }
 
-    fn restore(structure: Structure, data: &Data, bytes: &mut &[u8]) -> Result<Self, Error> {
-        let mut simulation = plant::new(structure, &data.parameters)?;
-        simulation.restore(bytes)?;
-        Ok(Self(simulation))
+    fn pass_unnamed(data: &mut Data, tape: &mut Tape<'_>) {
+        data.inputs.slopes.pass(tape);
     }
 }
 

@@ -5,10 +5,10 @@
 //! what the rest exerts on it, that for everything outboard of a joint the torque of its motor.
 
 use nalgebra::{SVector, Vector3};
-use serde::{Deserialize, Serialize};
 
 use super::Outputs;
 use crate::dynamics::{Dynamics, Impulse, Load, Situation};
+use crate::memory;
 use crate::momentum::outboard;
 use crate::planar::{Vec2, vec2};
 use crate::vehicle::Vehicle;
@@ -17,7 +17,7 @@ use crate::vehicle::Vehicle;
 const SHORTEST: f64 = 1e-9;
 
 /// Impulses since the last means, and the motion at that time.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone)]
 pub(super) struct Means<const N: usize> {
     impulse: Impulse<N>,
     time: f64,
@@ -28,6 +28,8 @@ pub(super) struct Means<const N: usize> {
     /// Momentum of the held payload \[N s\].
     payload: Vec2,
 }
+
+memory!(Means<N> { impulse, time, velocity, outboard, payload });
 
 impl<const N: usize> Means<N> {
     /// Everything at rest.

@@ -5,7 +5,7 @@ use nalgebra::SVector;
 use super::means::Means;
 use super::{Inputs, Outputs, Rates, Simulation};
 use crate::autopilot::AutopilotMode;
-use crate::bytes::{self, Memory};
+use crate::bytes::{Memory, Tape};
 use crate::dynamics::{Dynamics, Load, Loads, Motion, Situation, Trace};
 use crate::error::Result;
 use crate::parameters::{BaseModel, Parameters, Structure};
@@ -128,20 +128,22 @@ impl<const N: usize> Simulation for Plant<N> {
         rates
     }
 
+    fn check_memory(&self) -> Result<()> {
+        self.situation.state.check_memory()
+    }
+
     fn clone_box(&self) -> Box<dyn Simulation> {
         Box::new(self.clone())
     }
 }
 
 impl<const N: usize> Memory for Plant<N> {
-    fn save(&self, bytes: &mut Vec<u8>) -> Result<()> {
+    fn pass(&mut self, tape: &mut Tape<'_>) {
+        // Without "..": whoever adds a field decides here whether it follows from the parameters.
         let Self { dynamics: _, situation, means, trace } = self;
-        bytes::write(&(situation, means, trace), bytes)
-    }
-
-    fn restore(&mut self, bytes: &mut &[u8]) -> Result<()> {
-        (self.situation, self.means, self.trace) = bytes::read(bytes)?;
-        self.situation.state.check_memory()
+        situation.pass(tape);
+        means.pass(tape);
+        trace.pass(tape);
     }
 }
 

@@ -1,19 +1,20 @@
 //! First derivatives of the inputs for one step, as far as they are given.
 
-use serde::{Deserialize, Serialize};
-
 use super::Inputs;
 use crate::dynamics::Load;
+use crate::memory;
 use crate::parameters::MAX_COORDINATES;
 
 /// How inputs change within one step.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Slopes {
     /// Slopes of the rates, which replace the acceleration commands \[rad/s2, m/s2\].
     pub rate_command: [Option<f64>; MAX_COORDINATES],
     /// Slopes of loads and references per second, if any is given.
     pub load: Option<Load>,
 }
+
+memory!(Slopes { rate_command, load });
 
 impl Inputs {
     /// Slope of the rate of a coordinate within the step \[rad/s2, m/s2\].

@@ -17,10 +17,9 @@ pub unsafe fn set_real_input_derivatives<M: Model>(
     // SAFETY: promised by the caller.
     unsafe {
         component::call::<M>(handle, Call::SetRealInputDerivatives, |instance| {
-            let limit = instance.variables().len();
-            let references = arguments::list("vr", references, count, limit)?;
-            let orders = arguments::list("order", orders, count, limit)?;
-            instance.set_input_derivatives(references, orders, arguments::list("value", values, count, limit)?)
+            let references = arguments::list("vr", references, count)?;
+            let orders = arguments::list("order", orders, count)?;
+            instance.set_input_derivatives(references, orders, arguments::list("value", values, count)?)
         })
     }
 }
@@ -36,10 +35,9 @@ pub unsafe fn get_real_output_derivatives<M: Model>(
     // SAFETY: promised by the caller.
     unsafe {
         component::call::<M>(handle, Call::GetRealOutputDerivatives, |instance| {
-            let limit = instance.variables().len();
-            let references = arguments::list("vr", references, count, limit)?;
-            let orders = arguments::list("order", orders, count, limit)?;
-            instance.output_derivatives(references, orders, arguments::list_mut("value", values, count, limit)?)
+            let references = arguments::list("vr", references, count)?;
+            let orders = arguments::list("order", orders, count)?;
+            instance.output_derivatives(references, orders, arguments::list_mut("value", values, count)?)
         })
     }
 }

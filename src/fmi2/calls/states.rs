@@ -4,7 +4,7 @@ use super::{Handle, arguments, c};
 use crate::fmi2::c_types::Status;
 use crate::fmi2::component;
 use crate::fmi2::error::Error;
-use crate::fmi2::instance::{MOST_BYTES, Saved};
+use crate::fmi2::instance::Saved;
 use crate::fmi2::model::Model;
 use crate::fmi2::state::Call;
 use crate::fmi2::states;
@@ -66,7 +66,7 @@ pub unsafe fn serialize_fmu_state<M: Model>(
     unsafe {
         component::call::<M>(handle, Call::SerializeFMUstate, |_| {
             let bytes = with(state, Saved::<M>::to_bytes)?;
-            let place = arguments::list_mut("serializedState", place.cast::<u8>(), size, MOST_BYTES)?;
+            let place = arguments::list_mut("serializedState", place.cast::<u8>(), size)?;
             let Some((room, rest)) = place.split_at_mut_checked(bytes.len()) else {
                 return Err(Error::Argument {
                     argument: "size",
@@ -91,7 +91,7 @@ pub unsafe fn deserialize_fmu_state<M: Model>(
     // SAFETY: promised by the caller.
     unsafe {
         component::call::<M>(handle, Call::DeSerializeFMUstate, |instance| {
-            let bytes = arguments::list("serializedState", bytes.cast::<u8>(), size, MOST_BYTES)?;
+            let bytes = arguments::list("serializedState", bytes.cast::<u8>(), size)?;
             hand_out(handle, arguments::place("FMUstate", state)?, instance.read_saved(bytes)?)
         })
     }

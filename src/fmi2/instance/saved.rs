@@ -9,22 +9,19 @@
 //! ```
 
 use super::{Instance, Situation};
-use crate::bytes;
+use crate::bytes::{Memory, Tape};
 use crate::fmi2::error::Error;
 use crate::fmi2::hash::fnv1a;
 use crate::fmi2::identity::Guid;
 use crate::fmi2::model::Model;
-use crate::fmi2::state::Call;
-use crate::variables::{Causality, Kind};
+use crate::fmi2::state::{Call, State};
+use crate::variables::{Causality, Kind, Table};
 
 /// Number of the layout of the bytes.
 const FORMAT: u32 = 1;
 
 /// Longest simulation that is believed \[s\]: centuries.
 const LONGEST: f64 = 1e10;
-
-/// More bytes than this are no state.
-pub const MOST_BYTES: usize = 1 << 20;
 
 /// A copy of all that influences the future of an instance.
 pub struct Saved<M: Model> {
@@ -69,11 +66,14 @@ impl<M: Model> Instance<M> {
         Ok(Saved { structure: self.structure, then })
     }
 
-    fn read_situation(&self, mut content: &[u8]) -> Result<Situation<M>, String> {
-        let text = |error: crate::error::Error| error.to_string();
-        let (state, mut data, start_time, stop_time, time, has_model): (_, M::Data, f64, Option<f64>, f64, bool) =
-            bytes::read(&mut content).map_err(text)?;
-        let elapsed = time - start_time;
+    fn read_situation(&self, content: &[u8]) -> Result<Situation<M>, String> {
+        let mut tape = Tape::playing(content);
+        let mut then = Situation::new(self.structure);
+        let mut has_model = false;
+        then.pass(&self.table, &mut has_model, &mut tape);
+        tape.check().map_err(|error| error.to_string())?;
+        let Situation { data, start_time, stop_time, time, .. } = &mut then;
+        let elapsed = *time - *start_time;
         if !(time.is_finite() && elapsed.abs() <= LONGEST) || stop_time.is_some_and(|stop| !stop.is_finite()) {
             return Err(format!("the times {start_time}, {time} and {stop_time:?} do not go together"));
         }
@@ -81,22 +81,17 @@ impl<M: Model> Instance<M> {
             if let (Causality::Parameter | Causality::Input, Kind::Real { bounds, at, .. }) =
                 (variable.causality, variable.kind)
             {
-                let found = *at(&mut data, variable.index);
+                let found = *at(data, variable.index);
                 if !bounds.admit(found) {
                     return Err(format!("{} must be {bounds}, but is {found}", variable.name));
                 }
             }
         }
-        let model = if has_model {
-            Some(M::restore(self.structure, &data, &mut content).map_err(|error| error.to_string())?)
-        } else {
-            None
-        };
-        if content.is_empty() {
-            Ok(Situation { state, data, model, start_time, stop_time, time })
-        } else {
-            Err(format!("{} bytes are too many", content.len()))
+        if has_model {
+            let model = M::restore(self.structure, data, &mut tape).map_err(|error| error.to_string())?;
+            then.model = Some(model);
         }
+        if tape.is_at_its_end() { Ok(then) } else { Err("there are too many bytes".to_owned()) }
     }
 }
 
@@ -106,7 +101,7 @@ impl<M: Model> Saved<M> {
     /// # Errors
     /// If the model cannot write itself.
     pub fn to_bytes(&self) -> Result<Vec<u8>, Error> {
-        let content = self.content().map_err(|reason| Error::Content { reason })?;
+        let content = self.content();
         let mut all = title::<M>(self.structure).into_bytes();
         all.extend((content.len() as u64).to_le_bytes());
         all.extend(content);
@@ -114,13 +109,37 @@ impl<M: Model> Saved<M> {
         Ok(all)
     }
 
-    fn content(&self) -> Result<Vec<u8>, String> {
-        let Situation { state, data, model, start_time, stop_time, time } = &self.then;
+    fn content(&self) -> Vec<u8> {
         let mut content = Vec::new();
-        bytes::write(&(state, data, start_time, stop_time, time, model.is_some()), &mut content)
-            .map_err(|error| error.to_string())?;
-        model.as_ref().map_or(Ok(()), |model| model.save(&mut content)).map_err(|error| error.to_string())?;
-        Ok(content)
+        let mut tape = Tape::recording(&mut content);
+        let mut then = self.then.clone();
+        let mut has_model = then.model.is_some();
+        then.pass(&M::table(self.structure), &mut has_model, &mut tape);
+        if let Some(model) = &mut then.model {
+            model.pass(&mut tape);
+        }
+        content
+    }
+}
+
+impl<M: Model> Situation<M> {
+    /// Passes all but the model by a tape.
+    fn pass(&mut self, table: &Table<M::Data>, has_model: &mut bool, tape: &mut Tape<'_>) {
+        // Without "..": whoever adds a field decides here how it is written.
+        let Self { state, data, model: _, start_time, stop_time, time } = self;
+        tape.one_of(state, &State::ALL);
+        start_time.pass(tape);
+        stop_time.pass(tape);
+        time.pass(tape);
+        for variable in table.variables() {
+            match variable.kind {
+                Kind::Real { at, .. } => at(data, variable.index).pass(tape),
+                Kind::Boolean { at } => at(data, variable.index).pass(tape),
+                Kind::Enumeration { at } => tape.choice(at(data, variable.index)),
+            }
+        }
+        M::pass_unnamed(data, tape);
+        has_model.pass(tape);
     }
 }
 

@@ -1,6 +1,7 @@
 //! What no host should do, and what happens then.
 
 use super::*;
+use crate::bytes::{Memory, Tape};
 use crate::fmi2::calls;
 
 /// Instantiates with a text for the name and any type and GUID; the message if that is refused.
@@ -73,6 +74,10 @@ fn handles_of_another_unit_are_errors() {
     #[derive(Clone)]
     struct Other;
 
+    impl Memory for Other {
+        fn pass(&mut self, _: &mut Tape<'_>) {}
+    }
+
     impl crate::fmi2::Model for Other {
         const IDENTIFIER: &'static str = "other";
         const DESCRIPTION: &'static str = "Nothing";
@@ -93,10 +98,7 @@ fn handles_of_another_unit_are_errors() {
         fn step(&mut self, (): &mut (), _: crate::fmi2::CommunicationStep) -> Result<(), String> {
             Ok(())
         }
-        fn save(&self, _: &mut Vec<u8>) -> Result<(), String> {
-            Ok(())
-        }
-        fn restore(_: u8, (): &(), _: &mut &[u8]) -> Result<Self, String> {
+        fn restore(_: u8, (): &(), _: &mut Tape<'_>) -> Result<Self, String> {
             Ok(Self)
         }
     }
@@ -120,8 +122,8 @@ fn lists_are_checked_before_they_are_read() {
     // SAFETY: lists that are too long or have no place are not read.
     unsafe {
         assert_eq!(fmi2GetReal(c, &vr::GAIN, usize::MAX, value.as_mut_ptr()), ERROR);
-        assert!(host.last().text.contains("vr must be a list of at most 11"), "{}", host.last().text);
-        assert_eq!(fmi2SetReal(c, &vr::RATE, 12, value.as_ptr()), ERROR);
+        assert!(host.last().text.contains("vr must be a list of at most 65536"), "{}", host.last().text);
+        assert_eq!(fmi2SetReal(c, &vr::RATE, 65537, value.as_ptr()), ERROR);
         assert_eq!(fmi2GetReal(c, null(), 1, value.as_mut_ptr()), ERROR);
         assert_eq!(host.last().text, "fmi2GetReal: vr does not point to anything usable");
         assert_eq!(fmi2GetReal(c, &vr::GAIN, 1, null_mut()), ERROR);
@@ -136,6 +138,19 @@ fn lists_are_checked_before_they_are_read() {
         assert_eq!(fmi2SetDebugLogging(c, 1, 1, &c"\xff".as_ptr()), ERROR);
     }
     assert_eq!(toy.step(0.0, 1.0), OK);
+}
+
+/// Some hosts ask for the same variable for each of its uses.
+#[test]
+fn a_variable_may_be_named_more_often_than_there_are_variables() {
+    let host = Host::new();
+    let toy = host.running();
+    let references = [vr::GAIN; 10 * vr::COUNT as usize];
+    toy.set_real(&[vr::RATE; 100], &[7.0; 100]);
+    let mut values = [0.0; 10 * vr::COUNT as usize];
+    // SAFETY: as many values as references.
+    assert_eq!(unsafe { fmi2GetReal(toy.handle, references.as_ptr(), references.len(), values.as_mut_ptr()) }, OK);
+    assert_eq!(values, [1.0; 10 * vr::COUNT as usize]);
 }
 
 #[test]
