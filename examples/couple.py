@@ -19,8 +19,8 @@ except ImportError:  # without it there are numbers, but no picture
 RECORDED = ["base.x", "base.y", "base.roll", "end_effector.x", "end_effector.y"]
 
 
-def couple(folder: Path, step: float = 1e-3, stop: float = 30.0, **parameters: float) -> dict:
-    """Every communication point; the parameters are the controller's."""
+def couple(folder: Path, step: float = 1e-3, stop: float = 30.0, **parameters: float | str) -> dict:
+    """Every communication point; each parameter is set in the units that have it."""
     folders = [extract(folder / f"{name}.fmu") for name in ("uam_controller", "uam_plant")]
     models = [read_model_description(folder) for folder in folders]
     controller, plant = units = [instantiate_fmu(f, m) for f, m in zip(folders, models)]
@@ -28,7 +28,15 @@ def couple(folder: Path, step: float = 1e-3, stop: float = 30.0, **parameters: f
 
     # Every type of variable may be set and got as a number, so setReal and getReal do for all.
     for name, value in parameters.items():
-        controller.setReal([ours[name].valueReference], [value])
+        having = [(unit, v[name]) for unit, v in zip(units, (ours, theirs)) if name in v]
+        if not having:
+            raise KeyError(f"neither unit has a parameter {name}")
+        for unit, variable in having:
+            if isinstance(
+                value, str
+            ):  # the name of an item of an enumeration stands for its number
+                value = {item.name: int(item.value) for item in variable.declaredType.items}[value]
+            unit.setReal([variable.valueReference], [float(value)])
     for unit in units:
         unit.setupExperiment(startTime=0.0)
         unit.enterInitializationMode()

@@ -64,3 +64,14 @@ pub enum Error {
         value: f64,
     },
 }
+
+impl Error {
+    /// The parameter to look at, if it is one.
+    #[must_use]
+    pub fn parameter(&self) -> Option<&str> {
+        match self {
+            Self::OutOfBounds { name, .. } | Self::Inconsistent { name, .. } => Some(name),
+            _ => None,
+        }
+    }
+}

@@ -260,16 +260,22 @@ impl AsMut<Self> for Parameters {
 }
 
 impl Parameters {
+    /// The parameters of both units, each once.
+    #[must_use]
+    pub fn table(structure: Structure) -> Table<Self> {
+        let mut table = Table::default();
+        declare_shared(&mut table, structure);
+        declare_controller(&mut table, structure);
+        table
+    }
+
     /// Checks every parameter of both units against its bounds.
     ///
     /// # Errors
     /// Names the first parameter out of its bounds, with what was expected and found.
     pub fn check(&self, structure: Structure) -> Result<()> {
-        let mut table = Table::default();
-        declare_shared(&mut table, structure);
-        declare_controller(&mut table, structure);
         let mut copy = self.clone();
-        for variable in table.variables() {
+        for variable in Self::table(structure).variables() {
             if let Kind::Real { bounds, at, .. } = variable.kind {
                 let found = *at(&mut copy, variable.index);
                 if !bounds.admit(found) {

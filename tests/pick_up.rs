@@ -9,11 +9,7 @@ use std::f64::consts::PI;
 use common::coupling::Coupling;
 use uam::controller::Status;
 use uam::parameters::Discretization;
-use uam::scenarios::{PICK_UP_DURATION, Scenario, catalogue};
-
-fn scenario(id: &str) -> Scenario {
-    catalogue().into_iter().find(|scenario| scenario.id == id).unwrap()
-}
+use uam::scenarios::{PICK_UP_DURATION, Scenario, find};
 
 /// What a run looks like from afar.
 #[derive(Debug, Default)]
@@ -72,14 +68,14 @@ fn keeps_still(seen: &Seen) {
 
 #[test]
 fn minimum_norm_follows_exactly_while_the_uav_swings() {
-    let seen = run(&scenario("4.3a"), 0.01, PICK_UP_DURATION);
+    let seen = run(&find("4.3a").unwrap(), 0.01, PICK_UP_DURATION);
     assert!(seen.error < 5e-7, "{seen:?}");
     swings(&seen);
 }
 
 #[test]
 fn extended_jacobian_follows_exactly_and_the_uav_keeps_still() {
-    let seen = run(&scenario("4.3b"), 0.01, PICK_UP_DURATION);
+    let seen = run(&find("4.3b").unwrap(), 0.01, PICK_UP_DURATION);
     assert!(seen.error < 5e-7, "{seen:?}");
     keeps_still(&seen);
 }
@@ -88,7 +84,7 @@ fn extended_jacobian_follows_exactly_and_the_uav_keeps_still() {
 #[test]
 fn one_millisecond_is_exact_to_a_nanometre() {
     for id in ["4.3a", "4.3b"] {
-        let seen = run(&scenario(id), 1e-3, 3.0);
+        let seen = run(&find(id).unwrap(), 1e-3, 3.0);
         assert!(seen.error < 1e-9, "{id}: {seen:?}");
         if id == "4.3b" {
             assert!(seen.roll < 0.01 * PI / 180.0, "{seen:?}");
@@ -100,7 +96,7 @@ fn one_millisecond_is_exact_to_a_nanometre() {
 /// The thesis' own step: about 0.1 mm of error at 1 ms while the UAV swings as in the exact run.
 #[test]
 fn the_thesis_step_errs_by_a_tenth_of_a_millimetre() {
-    let mut scenario = scenario("4.3a");
+    let mut scenario = find("4.3a").unwrap();
     scenario.parameters.ik.discretization = Discretization::Euler;
     let seen = run(&scenario, 1e-3, 3.0);
     assert!(seen.error > 2e-5 && seen.error < 1.2e-4, "{seen:?}");
@@ -110,7 +106,7 @@ fn the_thesis_step_errs_by_a_tenth_of_a_millimetre() {
 /// With the extended Jacobian the thesis' step leaves the roll alone, too.
 #[test]
 fn the_thesis_step_keeps_the_uav_still() {
-    let mut scenario = scenario("4.3b");
+    let mut scenario = find("4.3b").unwrap();
     scenario.parameters.ik.discretization = Discretization::Euler;
     let seen = run(&scenario, 1e-3, 3.0);
     assert!(seen.roll < 0.01 * PI / 180.0, "{seen:?}");
@@ -121,7 +117,7 @@ fn the_thesis_step_keeps_the_uav_still() {
 /// the extended Jacobian does not care.
 #[test]
 fn stiff_roll_damping_breaks_minimum_norm_only() {
-    let lost = run(&scenario("4.3c-minimum-norm"), 0.01, 13.0).lost.unwrap();
+    let lost = run(&find("4.3c-minimum-norm").unwrap(), 0.01, 13.0).lost.unwrap();
     assert!((11.5..14.0).contains(&lost), "{lost}");
-    keeps_still(&run(&scenario("4.3c-extended-jacobian"), 0.01, PICK_UP_DURATION));
+    keeps_still(&run(&find("4.3c-extended-jacobian").unwrap(), 0.01, PICK_UP_DURATION));
 }

@@ -87,7 +87,7 @@ mod tests {
 
     #[test]
     fn every_claim_is_about_a_scenario_of_the_catalogue() {
-        let catalogue = uam::scenarios::catalogue();
+        let catalogue = uam::scenarios::catalogue().unwrap();
         assert!(all().all(|claim| catalogue.iter().any(|scenario| scenario.id == claim.scenario)));
     }
 

@@ -17,6 +17,9 @@ Examples:
   fmu-build list                            the simulations that `simulate` knows
   fmu-build simulate 4.3a                   one simulation, with its own report
   fmu-build simulate 4.3b --step 0.01 --stop 10 --discretization euler
+  fmu-build show 4.3b > mine.toml           a file to start your own simulation from
+  fmu-build simulate mine.toml              your own simulation
+  fmu-build export 4.2a                     parameter sets for other hosts
 
 From the sources, `cargo run --release --` stands for `fmu-build`.";
 
@@ -55,6 +58,18 @@ pub enum Command {
     Thesis,
     /// List the simulations that `simulate` knows, one per line
     List,
+    /// Print a simulation as a TOML file, to be changed and given to `simulate`
+    ///
+    /// The file holds the structure of the vehicle, duration, step, and the parameters that differ from the start
+    /// values of the FMUs, under the names that they have there. A file may say `based_on = "4.3b"` and then hold
+    /// nothing but what is different from that simulation: `id` and the parameters to change.
+    Show(ShowArguments),
+    /// Write a simulation as parameter sets that every host can give to the FMUs
+    ///
+    /// Writes <ID>.toml, which scripts can read (see examples/scenario.py), and <ID>.controller.ssv and
+    /// <ID>.plant.ssv, parameter sets by the SSP standard. They hold the parameters that differ from the start
+    /// values in the FMUs of the simulation's structure.
+    Export(ExportArguments),
     /// Write the model descriptions that are under version control anew
     ///
     /// To be called after variables have changed: modelDescription/uam_controller.xml and uam_plant.xml
@@ -76,7 +91,7 @@ pub struct BuildArguments {
 /// Which simulation, and how.
 #[derive(Debug, Args)]
 pub struct SimulateArguments {
-    /// Name of the simulation as in `list`, for instance 4.3b
+    /// Name of the simulation as in `list`, for instance 4.3b, or a TOML file as `show` prints it
     pub scenario: String,
     /// Communication step in seconds [default: the simulation's own]
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
@@ -96,6 +111,23 @@ pub struct SimulateArguments {
     /// Write every output of both units to the csv, not only those in the report
     #[arg(long)]
     pub all_outputs: bool,
+}
+
+/// Which simulation to print, and how much of it.
+#[derive(Debug, Args)]
+pub struct ShowArguments {
+    /// Name of the simulation as in `list`, or a TOML file
+    pub scenario: String,
+    /// All parameters, not only those that differ from the start values of the FMUs
+    #[arg(long)]
+    pub all: bool,
+}
+
+/// Which simulation to write.
+#[derive(Debug, Args)]
+pub struct ExportArguments {
+    /// Name of the simulation as in `list`, or a TOML file
+    pub scenario: String,
 }
 
 fn links(text: &str) -> Result<usize, String> {

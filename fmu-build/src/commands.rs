@@ -6,10 +6,12 @@ use anyhow::{Context, Result};
 use fmu_build::run::Run;
 use fmu_build::{BuildOptions, Built, workspace};
 use indicatif::{ProgressBar, ProgressStyle};
-use uam::{Structure, scenarios};
+use uam::Structure;
+use uam::scenarios::{self, Extent, Scenario};
 
 use crate::cli::{Arguments, Command};
 
+mod export;
 mod pick_up;
 mod simulate;
 mod thesis;
@@ -27,11 +29,17 @@ pub fn execute(arguments: &Arguments) -> Result<()> {
         Some(Command::Simulate(simulation)) => simulate::execute(simulation, out),
         Some(Command::Thesis) => thesis::execute(out),
         Some(Command::List) => {
-            for scenario in scenarios::catalogue() {
+            for scenario in scenarios::catalogue()? {
                 println!("{:<24} {}", scenario.id, scenario.title);
             }
             Ok(())
         }
+        Some(Command::Show(show)) => {
+            let extent = if show.all { Extent::Everything } else { Extent::Changes };
+            print!("{}", scenario(&show.scenario)?.write(extent));
+            Ok(())
+        }
+        Some(Command::Export(export)) => export::execute(&scenario(&export.scenario)?, out),
         Some(Command::Describe) => {
             let folder = workspace::root()?.join("modelDescription");
             fmu_build::write_descriptions(&folder)?;
@@ -39,6 +47,16 @@ pub fn execute(arguments: &Arguments) -> Result<()> {
             Ok(())
         }
     }
+}
+
+/// The scenario of a file, or of a name.
+fn scenario(name_or_file: &str) -> Result<Scenario> {
+    let is_file = Path::new(name_or_file).extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"));
+    if !is_file {
+        return scenarios::find(name_or_file).context("`list` shows all scenarios; a file of your own ends in .toml");
+    }
+    let text = std::fs::read_to_string(name_or_file).with_context(|| format!("cannot read {name_or_file}"))?;
+    Scenario::read(&text).with_context(|| name_or_file.to_owned())
 }
 
 /// Builds the FMUs of a structure into a folder.

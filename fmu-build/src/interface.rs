@@ -156,7 +156,7 @@ impl Variable {
 }
 
 impl Value {
-    fn read<D>(variable: &variables::Variable<D>, data: &mut D) -> Self {
+    pub(crate) fn read<D>(variable: &variables::Variable<D>, data: &mut D) -> Self {
         match variable.kind {
             Kind::Real { unit, bounds, at } => Self::Real { unit, bounds, start: *at(data, variable.index) },
             Kind::Boolean { at } => Self::Boolean { start: *at(data, variable.index) },
@@ -171,6 +171,17 @@ impl Value {
                     start: choice.number(),
                 }
             }
+        }
+    }
+
+    /// Whether the start values are the same; both are of the same type.
+    #[must_use]
+    pub fn starts_like(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Real { start, .. }, Self::Real { start: other, .. }) => start == other,
+            (Self::Boolean { start }, Self::Boolean { start: other }) => start == other,
+            (Self::Enumeration { start, .. }, Self::Enumeration { start: other, .. }) => start == other,
+            _ => false,
         }
     }
 

@@ -5,6 +5,7 @@ use uam::variables::{Causality, Kind};
 use uam::{Parameters, Structure};
 
 use crate::fmu::{Error, Instance, Selection, Value};
+use crate::interface::{self, Interface, Variable};
 
 /// Every parameter of the unit `M` with its value in `parameters`, in the order of the unit's table.
 #[must_use]
@@ -26,6 +27,26 @@ where
                 Kind::Enumeration { at } => Value::Integer(at(&mut data, variable.index).number()),
             };
             (variable.name.clone(), value)
+        })
+        .collect()
+}
+
+/// The parameters of the unit `M` that differ from its start values, with the values of `parameters`.
+#[must_use]
+pub fn changes<M>(structure: Structure, parameters: &Parameters) -> Vec<Variable>
+where
+    M: Model<Structure = Structure>,
+    M::Data: AsMut<Parameters>,
+{
+    let mut data = M::start(structure);
+    data.as_mut().clone_from(parameters);
+    let table = M::table(structure);
+    let starts = Interface::of::<M>(structure).variables.into_iter().zip(table.variables());
+    starts
+        .filter(|(variable, _)| variable.causality == Causality::Parameter)
+        .filter_map(|(variable, declared)| {
+            let value = interface::Value::read(declared, &mut data);
+            (!value.starts_like(&variable.value)).then_some(Variable { value, ..variable })
         })
         .collect()
 }

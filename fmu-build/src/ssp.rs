@@ -10,7 +10,7 @@ use crate::error::Result;
 use crate::interface::{Interface, Value, Variable};
 
 mod common;
-mod parameters;
+pub mod parameters;
 mod structure;
 
 /// A unit inside the system.
@@ -38,7 +38,7 @@ impl Component<'_> {
 pub fn ssp(components: &[Component<'_>; 2]) -> Result<Archive> {
     let mut archive = Archive::default();
     archive.add("SystemStructure.ssd", structure::system_structure(components)?);
-    archive.add(parameters::SOURCE, parameters::parameter_set(components)?);
+    archive.add(parameters::SOURCE, parameters::shared(components)?);
     for component in components {
         archive.add(component.source(), component.fmu);
     }

@@ -2,7 +2,7 @@
 
 use uam::options::Choice;
 use uam::parameters::Discretization;
-use uam::scenarios::{Scenario, catalogue};
+use uam::scenarios::{self, Scenario, catalogue};
 
 use crate::claims::{self, Quantity, Table};
 use crate::coupling::{Error, Order, Pair, Schedule};
@@ -87,9 +87,11 @@ const PICK_UP: [Quantity; 8] = [
 ];
 
 /// The scenarios of thesis 4.3.
-#[must_use]
-pub fn pick_up() -> Vec<Scenario> {
-    catalogue().into_iter().filter(|scenario| scenario.id.starts_with("4.3")).collect()
+///
+/// # Errors
+/// If a file of the catalogue is wrong.
+pub fn pick_up() -> Result<Vec<Scenario>, scenarios::Error> {
+    Ok(catalogue()?.into_iter().filter(|scenario| scenario.id.starts_with("4.3")).collect())
 }
 
 /// What the thesis says of these cases beside what came out.

@@ -41,5 +41,5 @@ fn help_teaches_with_examples() {
 fn every_scenario_has_a_line() {
     let (code, list, _) = answer(&["list"]);
     assert_eq!(code, Some(0));
-    assert_eq!(list.lines().count(), uam::scenarios::catalogue().len());
+    assert_eq!(list.lines().count(), uam::scenarios::catalogue().unwrap().len());
 }

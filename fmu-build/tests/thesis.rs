@@ -23,8 +23,12 @@ fn following_a_path_although_the_base_moves_is_as_the_thesis_says() {
         let pair = if scenario.structure.links == 2 { common::two_links() } else { common::pair() };
         Case::run(&pair, scenario, &|| {}).unwrap()
     };
-    let cases: Vec<Case> =
-        catalogue().iter().filter(|scenario| scenario.id.starts_with('2')).map(|scenario| run(&scenario.id)).collect();
+    let cases: Vec<Case> = catalogue()
+        .unwrap()
+        .iter()
+        .filter(|scenario| scenario.id.starts_with('2'))
+        .map(|scenario| run(&scenario.id))
+        .collect();
     let case = |id: &str| cases.iter().find(|case| case.scenario.id == id).unwrap();
     let table = study::table(&cases);
 
@@ -63,8 +67,11 @@ fn following_a_path_although_the_base_moves_is_as_the_thesis_says() {
 
 #[test]
 fn the_pick_up_is_as_the_thesis_says() {
-    let cases: Vec<Case> =
-        study::pick_up().into_iter().map(|scenario| Case::run(&common::pair(), scenario, &|| {}).unwrap()).collect();
+    let cases: Vec<Case> = study::pick_up()
+        .unwrap()
+        .into_iter()
+        .map(|scenario| Case::run(&common::pair(), scenario, &|| {}).unwrap())
+        .collect();
     let table = study::table(&cases);
     let (statements, agreeing) = table.agreement();
     assert!(statements >= 20);
@@ -87,7 +94,7 @@ fn the_pick_up_is_as_the_thesis_says() {
 
 #[test]
 fn ten_milliseconds_are_enough_without_touching_the_sample_time() {
-    for scenario in study::pick_up().iter().take(2) {
+    for scenario in study::pick_up().unwrap().iter().take(2) {
         let schedule = Schedule::new(0.0, scenario.duration, 0.01).unwrap();
         let names = Names::standard(scenario.structure);
         let run = run(&common::pair(), scenario, &schedule, Order::Parallel, &names, &|| {}).unwrap();

@@ -6,7 +6,9 @@ import csv
 import shutil
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -14,8 +16,10 @@ from fmpy import read_model_description, simulate_fmu
 from fmpy.validation import validate_fmu
 
 import couple
+import scenario as scenario_file
 from conftest import ALL, ROOT, Pair, Structure, build, program
 
+SSV = "{http://ssp-standard.org/SSP1/SystemStructureParameterValues}"
 # The thesis' joint angles at the start of the pick-up [rad].
 START = -np.pi / 6, 2 * np.pi / 3, -2 * np.pi / 3
 
@@ -88,6 +92,44 @@ def test_coupled_as_in_the_native_program(
     for name, values in ours.items():
         np.testing.assert_allclose(values, native[name], rtol=0, atol=1e-12, err_msg=name)
     assert np.max(np.abs(native["base.y"])) > 0.09
+
+
+@pytest.mark.parametrize(
+    ("name", "structure"), [("4.3c-minimum-norm", Structure(3)), ("2.2b", Structure(2))], ids=str
+)
+def test_exported_scenarios_as_in_the_native_program(
+    tmp_path: Path, name: str, structure: Structure
+) -> None:
+    """What `export` writes is what `simulate` runs, also without the program's own reader."""
+    step, stop = 0.01, 6.0
+    program("export", name, "--out", str(tmp_path))
+    ours = scenario_file.run(
+        tmp_path / f"{name}.toml", build(structure).plant.parent, step=step, stop=stop
+    )
+    program("simulate", name, "--step", str(step), "--stop", str(stop), "--out", str(tmp_path))
+    with (tmp_path / f"{name}.csv").open(newline="") as file:
+        header, *rows = csv.reader(file)
+    native = dict(zip(header, np.array(rows, dtype=float).T))
+    for quantity, values in ours.items():
+        np.testing.assert_allclose(values, native[quantity], rtol=0, atol=1e-12, err_msg=quantity)
+    # The other way of writing the same: a parameter set by the SSP standard.
+    numbers = scenario_file.names(
+        tomllib.loads((tmp_path / f"{name}.toml").read_text())["parameters"]
+    )
+    for unit in ("controller", "plant"):
+        variables = {
+            v.name: v
+            for v in read_model_description(getattr(build(structure), unit)).modelVariables
+        }
+        root = ElementTree.parse(tmp_path / f"{name}.{unit}.ssv").getroot()
+        values = {p.get("name"): p[0].get("value") for p in root.iter(f"{SSV}Parameter")}
+        assert values.keys() == numbers.keys() & variables.keys()
+        for parameter, value in values.items():
+            expected = numbers[parameter]
+            if isinstance(expected, str):
+                items = variables[parameter].declaredType.items
+                expected = {item.name: int(item.value) for item in items}[expected]
+            assert float(value) == expected, parameter
 
 
 def test_example_as_printed_in_the_readme(pair: Pair) -> None:

@@ -44,7 +44,7 @@ pub fn execute(out: &Path) -> Result<()> {
 }
 
 fn run_all(pair: &Pair) -> Result<Vec<Case>> {
-    let scenarios = study::pick_up();
+    let scenarios = study::pick_up()?;
     let points: f64 = scenarios.iter().map(|scenario| scenario.duration / scenario.step).sum();
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "only for the progress bar")]
     let progress = Progress::new(points as u64 * DISCRETIZATIONS.len() as u64, "Simulating")?;

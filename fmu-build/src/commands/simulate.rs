@@ -2,18 +2,17 @@
 
 use std::path::Path;
 
-use anyhow::{Context, Result, anyhow, bail};
+use anyhow::{Context, Result, anyhow};
 use fmu_build::coupling::{Order, Pair, Schedule};
 use fmu_build::record::{Names, write_csv};
 use fmu_build::report;
 use fmu_build::run::run;
-use uam::scenarios::{Scenario, catalogue};
 
 use super::{Progress, build, folder, speed, wrote};
 use crate::cli::SimulateArguments;
 
 pub fn execute(arguments: &SimulateArguments, out: &Path) -> Result<()> {
-    let mut scenario = find(&arguments.scenario)?;
+    let mut scenario = super::scenario(&arguments.scenario)?;
     if let Some(discretization) = arguments.discretization {
         scenario.parameters.ik.discretization = discretization;
     }
@@ -44,20 +43,4 @@ pub fn execute(arguments: &SimulateArguments, out: &Path) -> Result<()> {
         None => Ok(()),
         Some(stopped) => Err(anyhow!(stopped).context("the files hold what came out until then")),
     }
-}
-
-fn find(id: &str) -> Result<Scenario> {
-    let mut scenarios = catalogue();
-    if let Some(index) = scenarios.iter().position(|scenario| scenario.id == id) {
-        return Ok(scenarios.swap_remove(index));
-    }
-    let similarity = |scenario: &Scenario| strsim::jaro_winkler(&scenario.id, id);
-    scenarios.sort_by(|a, b| similarity(b).total_cmp(&similarity(a)));
-    let names =
-        |scenarios: &[Scenario]| scenarios.iter().map(|scenario| scenario.id.as_str()).collect::<Vec<_>>().join(", ");
-    let near: Vec<Scenario> = scenarios.iter().filter(|scenario| similarity(scenario) > 0.8).take(3).cloned().collect();
-    if near.is_empty() {
-        bail!("there is no scenario `{id}`; there are {}", names(&scenarios))
-    }
-    bail!("there is no scenario `{id}`; did you mean {}? `list` shows all", names(&near))
 }

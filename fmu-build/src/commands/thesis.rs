@@ -12,7 +12,7 @@ use uam::scenarios::catalogue;
 use super::{Progress, build, folder, speed};
 
 pub fn execute(out: &Path) -> Result<()> {
-    let scenarios = catalogue();
+    let scenarios = catalogue()?;
     let mut pairs: Vec<(Structure, Pair)> = Vec::new();
     let mut cases = Vec::with_capacity(scenarios.len());
     let points: f64 = scenarios.iter().map(|scenario| scenario.duration / scenario.step).sum();

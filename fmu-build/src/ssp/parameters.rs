@@ -14,21 +14,33 @@ pub const SOURCE: &str = "resources/uam.ssv";
 const NAME: &str = "initialValues";
 
 /// The parameters that all components have, with their start values.
-pub fn parameter_set(components: &[Component<'_>; 2]) -> Result<String> {
+pub fn shared(components: &[Component<'_>; 2]) -> Result<String> {
+    let parameters: Vec<&Variable> = shared_parameters(components).collect();
+    set(NAME, "Vehicle, autopilot and payload: what both units must agree on", &parameters)
+}
+
+/// A parameter set with these values.
+///
+/// Enumerations stand there as integers, which is what hosts hand to FMUs anyway: importers that refuse
+/// the word take the number.
+///
+/// # Errors
+/// If the document cannot be put together.
+pub fn set(name: &str, description: &str, parameters: &[&Variable]) -> Result<String> {
     xml::document(SOURCE, |xml| {
         let attributes = [
             ("xmlns:ssc", common::SSC),
             ("xmlns:ssv", common::SSV),
             ("version", "1.0"),
-            ("name", NAME),
-            ("description", "Vehicle, autopilot and payload: what both units must agree on"),
+            ("name", name),
+            ("description", description),
             ("generationTool", metadata::GENERATION_TOOL),
         ];
         xml::tall_element(xml, "ssv:ParameterSet", attributes).write_inner_content(|xml| {
             xml.create_element("ssv:Parameters").write_inner_content(|xml| {
-                shared_parameters(components).try_for_each(|parameter| write_parameter(xml, parameter))
+                parameters.iter().try_for_each(|parameter| write_parameter(xml, parameter))
             })?;
-            common::write_units(xml, "ssv:Units", &units_of(shared_parameters(components)))
+            common::write_units(xml, "ssv:Units", &units_of(parameters.iter().copied()))
         })?;
         Ok(())
     })
@@ -52,7 +64,11 @@ fn write_parameter(xml: &mut Xml, parameter: &Variable) -> io::Result<()> {
                     .with_attribute(("value", if start { "true" } else { "false" }))
                     .write_empty()?;
             }
-            Value::Enumeration { .. } => {}
+            Value::Enumeration { start, .. } => {
+                xml.create_element("ssv:Integer")
+                    .with_attribute(("value", start.to_string().as_str()))
+                    .write_empty()?;
+            }
         }
         Ok(())
     })?;

@@ -1,0 +1,61 @@
+//! The runs of the thesis, in its order.
+
+use std::sync::LazyLock;
+
+use super::error::near;
+use super::{Error, Scenario, reader};
+
+/// Name and text of the files; a file may be based on those before it.
+macro_rules! files {
+    ($($id:literal)+) => { &[$(($id, include_str!(concat!("../../scenarios/", $id, ".toml")))),+] };
+}
+
+const FILES: &[(&str, &str)] = files!(
+    "2.1a" "2.1b" "2.2a" "2.2b" "2.3a" "2.3b" "2.4a" "2.4b" "2.5a" "2.5b"
+    "4.3a" "4.3b" "4.3c-minimum-norm" "4.3c-extended-jacobian"
+);
+
+/// All named scenarios, in the order of the thesis.
+///
+/// # Errors
+/// If a file of the catalogue is wrong.
+pub fn catalogue() -> Result<Vec<Scenario>, Error> {
+    static READ: LazyLock<Result<Vec<Scenario>, Error>> = LazyLock::new(read_all);
+    READ.clone()
+}
+
+fn read_all() -> Result<Vec<Scenario>, Error> {
+    let mut scenarios = Vec::with_capacity(FILES.len());
+    for &(file, text) in FILES {
+        let scenario =
+            reader::read(text, &scenarios).map_err(|source| Error::Catalogue { file, source: Box::new(source) })?;
+        scenarios.push(scenario);
+    }
+    Ok(scenarios)
+}
+
+/// The scenario of this name.
+///
+/// # Errors
+/// If there is none; proposes similar names.
+pub fn find(id: &str) -> Result<Scenario, Error> {
+    let mut scenarios = catalogue()?;
+    match scenarios.iter().position(|scenario| scenario.id == id) {
+        Some(index) => Ok(scenarios.swap_remove(index)),
+        None => Err(Error::NoScenario {
+            id: id.to_owned(),
+            near: near(id, scenarios.iter().map(|scenario| scenario.id.as_str())),
+        }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_are_named_after_their_scenarios() {
+        let scenarios = catalogue().unwrap();
+        assert!(FILES.iter().map(|(file, _)| *file).eq(scenarios.iter().map(|scenario| scenario.id.as_str())));
+    }
+}

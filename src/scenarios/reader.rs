@@ -1,0 +1,279 @@
+//! Reads scenario files: every key is known and of the right type, or refused with its line.
+
+use toml::de::{DeTable, DeValue};
+
+use super::error::near;
+use super::{Error, Problem, Scenario, THESIS_STEP, default_parameters};
+use crate::parameters::{Parameters, Structure};
+use crate::variables::{Kind, Variable};
+
+/// Keys beside the parameters, with what each must be.
+const ID: (&str, &str) = ("id", "a short name of letters, digits, `.`, `-` and `_`, in quotes");
+const TITLE: (&str, &str) = ("title", "one line on what happens, in quotes");
+const BASED_ON: (&str, &str) = ("based_on", "the name of another scenario, in quotes");
+const DURATION: (&str, &str) = ("duration", "a number of seconds above 0");
+const STEP: (&str, &str) = ("step", "a number of seconds above 0, at most the duration");
+const LINKS: (&str, &str) = ("structure.links", "a whole number from 1 to 6");
+const BALANCE: (&str, &str) = ("structure.balance", "\"none\" or \"counterweight\"");
+const KEYS: [(&str, &str); 7] = [ID, TITLE, BASED_ON, DURATION, STEP, LINKS, BALANCE];
+/// The table of all parameters.
+const PARAMETERS: &str = "parameters";
+
+/// A value with its whole name and its line.
+struct Entry<'a> {
+    key: String,
+    line: usize,
+    value: &'a DeValue<'a>,
+}
+
+/// All entries of a file, in its order.
+struct Document<'a> {
+    entries: Vec<Entry<'a>>,
+}
+
+/// Reads a scenario that may be based on one of those that are known.
+pub(super) fn read(text: &str, known: &[Scenario]) -> Result<Scenario, Error> {
+    let line_of = |position: usize| text.bytes().take(position).filter(|&byte| byte == b'\n').count() + 1;
+    let table = DeTable::parse(text).map_err(|error| {
+        let position = error.span().map_or(text.len(), |span| span.start);
+        Error::Line { line: line_of(position), problem: Problem::Syntax(error.message().to_owned()) }
+    })?;
+    let mut entries = Vec::new();
+    flatten("", table.get_ref(), &line_of, &mut entries);
+    entries.sort_by_key(|entry| entry.line);
+    let document = Document { entries };
+    document.check_keys()?;
+    document.scenario(known)
+}
+
+/// Collects the values of nested tables under their whole names: `parameters.autopilot.roll.kd`.
+fn flatten<'a>(before: &str, table: &'a DeTable<'a>, line_of: &impl Fn(usize) -> usize, entries: &mut Vec<Entry<'a>>) {
+    for (key, value) in table {
+        let name = if before.is_empty() { key.get_ref().to_string() } else { format!("{before}.{}", key.get_ref()) };
+        match value.get_ref() {
+            DeValue::Table(table) if !table.is_empty() => flatten(&name, table, line_of, entries),
+            value => entries.push(Entry { key: name, line: line_of(key.span().start), value }),
+        }
+    }
+}
+
+impl Document<'_> {
+    /// Refuses repeated keys, and those that mean nothing whatever the structure.
+    fn check_keys(&self) -> Result<(), Error> {
+        for (i, entry) in self.entries.iter().enumerate() {
+            if let Some(first) = self.entries[..i].iter().find(|other| other.key == entry.key) {
+                return Err(entry.refused(Problem::Repeated { key: entry.key.clone(), first: first.line }));
+            }
+            let empty_table =
+                matches!(entry.value, DeValue::Table(_)) && ["structure", PARAMETERS].contains(&&*entry.key);
+            let known = KEYS.iter().any(|(key, _)| *key == entry.key);
+            if !(known || empty_table || entry.parameter().is_some()) {
+                return Err(entry.refused(Problem::UnknownKey { key: entry.key.clone(), near: near_keys(&entry.key) }));
+            }
+        }
+        Ok(())
+    }
+
+    fn field(&self, (key, expected): (&'static str, &'static str)) -> Option<Field<'_>> {
+        self.entries.iter().find(|entry| entry.key == key).map(|entry| Field { entry, expected })
+    }
+
+    fn scenario(&self, known: &[Scenario]) -> Result<Scenario, Error> {
+        let missing = |(key, expected): (&'static str, &'static str)| Error::Missing { key, expected };
+        let base = match self.field(BASED_ON) {
+            None => None,
+            Some(field) => {
+                let id = field.text()?;
+                let base = known.iter().find(|scenario| scenario.id == id);
+                Some(base.ok_or_else(|| {
+                    let near = near(id, known.iter().map(|scenario| scenario.id.as_str()));
+                    field.entry.refused(Problem::NoScenario { id: id.to_owned(), near })
+                })?)
+            }
+        };
+
+        let id = self.field(ID).ok_or_else(|| missing(ID))?;
+        let id = id.if_ok(id.text()?.to_owned(), |text: &String| is_name(text))?;
+        let title = self.field(TITLE).map(|field| field.text()).transpose()?;
+        let title = title.or(base.map(|base| base.title.as_str())).ok_or_else(|| missing(TITLE))?.to_owned();
+        let seconds = |key, inherited: Option<f64>| match self.field(key) {
+            Some(field) => field.if_ok(field.number()?, |&value| value.is_finite() && value > 0.0),
+            None => inherited.ok_or_else(|| missing(key)),
+        };
+        let duration = seconds(DURATION, base.map(|base| base.duration))?;
+        let step = seconds(STEP, Some(base.map_or(THESIS_STEP, |base| base.step)))?;
+        if step > duration {
+            let field = self.field(STEP).or(self.field(DURATION)).ok_or_else(|| missing(DURATION))?;
+            return Err(field.wrong());
+        }
+        let structure = self.structure(base)?;
+
+        let mut parameters = default_parameters(structure);
+        if let Some(base) = base.filter(|base| base.structure == structure) {
+            parameters.clone_from(&base.parameters);
+        }
+        self.set_parameters(structure, &mut parameters)?;
+        Ok(Scenario { id, title, structure, parameters, duration, step })
+    }
+
+    fn structure(&self, base: Option<&Scenario>) -> Result<Structure, Error> {
+        let inherited = base.map(|base| base.structure);
+        let links = match self.field(LINKS) {
+            None => inherited.ok_or(Error::Missing { key: LINKS.0, expected: LINKS.1 })?.links,
+            Some(field) => field.if_ok(field.count()?, |&links| Structure::new(links, false).is_ok())?,
+        };
+        let counterweight = match self.field(BALANCE) {
+            None => inherited.is_some_and(|structure| structure.counterweight),
+            Some(field) => match field.text()? {
+                "none" => false,
+                "counterweight" => true,
+                _ => return Err(field.wrong()),
+            },
+        };
+        let structure = Structure { links, counterweight };
+        // The numbers of one vehicle mean nothing for another one.
+        match (inherited, self.field(LINKS).or(self.field(BALANCE))) {
+            (Some(inherited), Some(field)) if inherited != structure => Err(field.entry.refused(Problem::Value {
+                key: field.entry.key.clone(),
+                expected: format!("that of the scenario this one is based on ({inherited})"),
+                found: structure.to_string(),
+            })),
+            _ => Ok(structure),
+        }
+    }
+
+    fn set_parameters(&self, structure: Structure, parameters: &mut Parameters) -> Result<(), Error> {
+        let table = Parameters::table(structure);
+        for entry in &self.entries {
+            let Some(name) = entry.parameter() else { continue };
+            let Some(variable) = table.find(name) else {
+                let near = near(name, table.variables().iter().map(|variable| variable.name.as_str()));
+                let problem =
+                    Problem::UnknownParameter { name: name.to_owned(), structure: structure.to_string(), near };
+                return Err(entry.refused(problem));
+            };
+            entry.put(variable, parameters)?;
+        }
+        parameters.check(structure).map_err(|error| {
+            let name = error.parameter().unwrap_or_default();
+            match self.entries.iter().find(|entry| entry.parameter() == Some(name)) {
+                Some(entry) => entry.refused(Problem::Parameter(error)),
+                None => Error::Parameters(error),
+            }
+        })
+    }
+}
+
+/// Keys that may have been meant: for a parameter outside its table, that inside.
+fn near_keys(key: &str) -> Vec<String> {
+    let table = Parameters::table(Structure::DEFAULT);
+    if table.find(key).is_some() {
+        return vec![format!("{PARAMETERS}.{key}")];
+    }
+    let mut keys = near(key, KEYS.iter().map(|(key, _)| *key).chain([PARAMETERS]));
+    keys.truncate(1);
+    keys
+}
+
+/// Whether this can be part of the name of a file.
+fn is_name(text: &str) -> bool {
+    let allowed = |c: char| c.is_ascii_alphanumeric() || ".-_".contains(c);
+    text.chars().all(allowed) && text.starts_with(|c: char| c.is_ascii_alphanumeric())
+}
+
+/// An entry with what its value must be.
+struct Field<'a> {
+    entry: &'a Entry<'a>,
+    expected: &'static str,
+}
+
+impl<'a> Field<'a> {
+    fn text(&self) -> Result<&'a str, Error> {
+        self.entry.text().ok_or_else(|| self.wrong())
+    }
+
+    fn number(&self) -> Result<f64, Error> {
+        self.entry.number().ok_or_else(|| self.wrong())
+    }
+
+    fn count(&self) -> Result<usize, Error> {
+        match self.entry.value {
+            DeValue::Integer(value) => usize::from_str_radix(value.as_str(), value.radix()).map_err(|_| self.wrong()),
+            _ => Err(self.wrong()),
+        }
+    }
+
+    fn if_ok<T>(&self, value: T, ok: impl Fn(&T) -> bool) -> Result<T, Error> {
+        if ok(&value) { Ok(value) } else { Err(self.wrong()) }
+    }
+
+    fn wrong(&self) -> Error {
+        self.entry.wrong(self.expected)
+    }
+}
+
+impl Entry<'_> {
+    /// The name of the parameter, if it is one.
+    fn parameter(&self) -> Option<&str> {
+        self.key.strip_prefix(PARAMETERS)?.strip_prefix('.')
+    }
+
+    fn text(&self) -> Option<&str> {
+        if let DeValue::String(text) = self.value { Some(text) } else { None }
+    }
+
+    fn number(&self) -> Option<f64> {
+        match self.value {
+            DeValue::Float(value) => value.as_str().parse().ok(),
+            DeValue::Integer(value) if value.radix() == 10 => value.as_str().parse().ok(),
+            _ => None,
+        }
+    }
+
+    /// Writes the value to where the variable is.
+    fn put(&self, variable: &Variable<Parameters>, parameters: &mut Parameters) -> Result<(), Error> {
+        match variable.kind {
+            Kind::Real { bounds, at, unit } => {
+                let number = self.number().filter(|&number| bounds.admit(number));
+                let expected = || format!("{bounds} [{}]", unit.name);
+                *at(parameters, variable.index) = number.ok_or_else(|| self.wrong(&expected()))?;
+            }
+            Kind::Boolean { at } => match self.value {
+                DeValue::Boolean(value) => *at(parameters, variable.index) = *value,
+                _ => return Err(self.wrong("true or false")),
+            },
+            Kind::Enumeration { at } => {
+                let choice = at(parameters, variable.index);
+                let position = self.text().and_then(|text| choice.items().iter().position(|item| item.name == text));
+                let number = position.and_then(|position| i32::try_from(position + 1).ok());
+                if !number.is_some_and(|number| choice.choose(number)) {
+                    let names: Vec<String> = choice.items().iter().map(|item| format!("\"{}\"", item.name)).collect();
+                    return Err(self.wrong(&format!("one of {}", names.join(", "))));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn refused(&self, problem: Problem) -> Error {
+        Error::Line { line: self.line, problem }
+    }
+
+    fn wrong(&self, expected: &str) -> Error {
+        let key = self.parameter().unwrap_or(&self.key).to_owned();
+        self.refused(Problem::Value { key, expected: expected.to_owned(), found: found(self.value) })
+    }
+}
+
+/// A value as it stands in the file, or what kind of value it is.
+fn found(value: &DeValue<'_>) -> String {
+    match value {
+        DeValue::String(text) => format!("\"{text}\""),
+        DeValue::Integer(number) => number.to_string(),
+        DeValue::Float(number) => number.to_string(),
+        DeValue::Boolean(value) => value.to_string(),
+        DeValue::Datetime(time) => time.to_string(),
+        DeValue::Array(_) => "a list".to_owned(),
+        DeValue::Table(_) => "a table".to_owned(),
+    }
+}

@@ -1,0 +1,83 @@
+//! Writes scenario files.
+
+use std::fmt::Write;
+
+use super::{Scenario, default_parameters};
+use crate::parameters::Parameters;
+use crate::variables::Kind;
+
+/// Which parameters a file holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Extent {
+    /// Those that differ from the start values of the units.
+    Changes,
+    /// All.
+    Everything,
+}
+
+/// The text of a file that reads as this scenario.
+pub(super) fn write(scenario: &Scenario, extent: Extent) -> String {
+    let Scenario { id, title, structure, duration, step, .. } = scenario;
+    let [id, title] = [id, title].map(|text| quoted(text));
+    let balance = if structure.counterweight { "counterweight" } else { "none" };
+    let links = structure.links;
+    let mut text = format!(
+        "\
+# Names, units and bounds of the parameters are those of the FMUs. What is not here has the start value that it
+# has in the FMUs of this structure.
+id = {id}
+title = {title}
+duration = {duration:?} # [s]
+step = {step:?} # between two communication points [s]
+
+[structure]
+links = {links}
+balance = \"{balance}\"
+
+[parameters]
+"
+    );
+    let (mut defaults, mut parameters) = (default_parameters(*structure), scenario.parameters.clone());
+    for variable in Parameters::table(*structure).variables() {
+        let (value, default, meaning) = match variable.kind {
+            Kind::Real { at, unit, .. } => {
+                let value = |data| format!("{:?}", *at(data, variable.index));
+                let meaning = format!("{} [{}]", variable.description, unit.name);
+                (value(&mut parameters), value(&mut defaults), meaning)
+            }
+            Kind::Boolean { at } => {
+                let value = |data| at(data, variable.index).to_string();
+                (value(&mut parameters), value(&mut defaults), variable.description.clone())
+            }
+            Kind::Enumeration { at } => {
+                let value = |data| format!("\"{}\"", at(data, variable.index).name());
+                let items = at(&mut parameters, variable.index).items().iter().map(|item| item.name);
+                let meaning = format!("{}: {}", variable.description, items.collect::<Vec<_>>().join(", "));
+                (value(&mut parameters), value(&mut defaults), meaning)
+            }
+        };
+        if extent == Extent::Everything || value != default {
+            let name = &variable.name;
+            // Brackets need quotes.
+            let quote = if name.contains('[') { "\"" } else { "" };
+            // Writing to a text cannot fail.
+            let _ = writeln!(text, "{quote}{name}{quote} = {value} # {meaning}");
+        }
+    }
+    text
+}
+
+/// A text as TOML writes it.
+fn quoted(text: &str) -> String {
+    let mut quoted = String::from('"');
+    for c in text.chars() {
+        match c {
+            '"' | '\\' => quoted.extend(['\\', c]),
+            c if c.is_control() => {
+                let _ = write!(quoted, "\\u{:04X}", u32::from(c));
+            }
+            c => quoted.push(c),
+        }
+    }
+    quoted + "\""
+}
