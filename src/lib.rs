@@ -5,7 +5,7 @@
 //! [`plant`](interface::plant) is the multibody system itself.
 //!
 //! Modules know only what stands above them in this list:
-//! [`options`], [`bytes`], [`unit`], [`variables`] (named data), [`planar`], [`parameters`], [`vehicle`],
+//! [`options`], [`bytes`], [`unit`], [`variables`] (named data), [`qp`], [`planar`], [`parameters`], [`vehicle`],
 //! [`kinematics`], [`momentum`], [`dynamics`], then [`plant`] and [`controller`], and at the end
 //! [`fmi2`] and [`interface`], which make units of them.
 
@@ -22,6 +22,7 @@ pub mod options;
 pub mod parameters;
 pub mod planar;
 pub mod plant;
+pub mod qp;
 pub mod reference;
 pub mod scenarios;
 pub mod unit;

@@ -1,0 +1,217 @@
+//! Small dense quadratic programs: least squares with bounds, where some equations come first.
+//!
+//! Of all x within `lower` <= x <= `upper`, which always holds, those with the smallest |E x - e|; of these the
+//! one with the smallest
+//!
+//! |A x - b|^2 + `ridge` |x|^2 + sum of `penalty_i` |`x_i`|
+//!
+//! E, e: `equalities`; A, b: `objective`. So where bounds and equalities contradict each other, the equalities
+//! give way, in the sense of least squares, and nothing else is bought with their error. The ridge makes the
+//! answer unique, whatever the ranks of A and E: among equally good answers it is the one of smallest norm.
+//!
+//! The method is a primal active set with the equalities eliminated by an orthogonal basis of their null space
+//! (J. Nocedal and S. J. Wright, Numerical Optimization, chapter 16). The kink of a penalty at 0 is one more
+//! place where a variable can rest. The objective falls with each step that has a length; while steps have
+//! none, the least index enters and leaves, with which no working set comes twice (Y.-Y. Chang and
+//! R. W. Cottle, Mathematical Programming 18 (1980) 127-137). No memory is allocated.
+
+mod null_space;
+mod search;
+mod triangle;
+
+use null_space::NullSpace;
+use search::Search;
+
+/// Largest number of variables.
+pub const MAX_VARIABLES: usize = 8;
+/// Largest number of rows of the equalities and of the objective, each.
+pub const MAX_ROWS: usize = 4;
+
+/// Equalities are met if they are off by less than this share of what their terms could be.
+const MET: f64 = 1e-10;
+
+/// Weight of |x|^2 beside |E x - e|^2 for an E of unit size: it decides between equal answers only.
+const FIRST_RIDGE: f64 = 1e-18;
+
+/// A bound holds a variable back if the equalities pull at it with more than this share of their error.
+const PULL: f64 = 1e-9;
+
+/// One number for each variable.
+pub type Vector = [f64; MAX_VARIABLES];
+
+/// Linear equations `coefficients` * x = `value`.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Rows {
+    count: usize,
+    coefficients: [Vector; MAX_ROWS],
+    values: [f64; MAX_ROWS],
+}
+
+impl Rows {
+    /// Adds the equation `coefficients` * x = `value`; what exceeds [`MAX_ROWS`] or [`MAX_VARIABLES`] is ignored.
+    pub fn push(&mut self, coefficients: &[f64], value: f64) {
+        if let (Some(row), Some(place)) = (self.coefficients.get_mut(self.count), self.values.get_mut(self.count)) {
+            row.iter_mut().zip(coefficients).for_each(|(place, coefficient)| *place = *coefficient);
+            *place = value;
+            self.count += 1;
+        }
+    }
+
+    /// The equations one by one.
+    fn iter(&self) -> impl Iterator<Item = (&Vector, f64)> {
+        self.coefficients.iter().zip(self.values).take(self.count)
+    }
+
+    /// Largest coefficient.
+    fn size(&self) -> f64 {
+        self.iter().map(|(row, _)| largest(row)).fold(0.0, f64::max)
+    }
+
+    /// Whether `x` solves them, as far as rounding allows.
+    fn met_by(&self, x: &Vector) -> bool {
+        let farthest = largest(x);
+        self.iter().all(|(row, value)| (dot(row, x) - value).abs() <= MET * (largest(row) * farthest + value.abs()))
+    }
+}
+
+/// What is asked for. Variables beyond `variables` are ignored.
+#[derive(Debug, Clone, Copy)]
+pub struct Problem {
+    /// Number of variables.
+    pub variables: usize,
+    /// Equations that are to hold before the objective counts.
+    pub equalities: Rows,
+    /// Equations whose squared error is to be small.
+    pub objective: Rows,
+    /// Weight of the squared variables in the objective, positive.
+    pub ridge: f64,
+    /// Weight of the variables' absolute values in the objective, not negative.
+    pub penalty: Vector,
+    /// Smallest values; minus infinity: none.
+    pub lower: Vector,
+    /// Largest values; infinity: none. Should one be below `lower`, it is the one that counts.
+    pub upper: Vector,
+}
+
+impl Problem {
+    /// A problem without equations, penalties and bounds.
+    #[must_use]
+    pub fn new(variables: usize, ridge: f64) -> Self {
+        Self {
+            variables: variables.min(MAX_VARIABLES),
+            equalities: Rows::default(),
+            objective: Rows::default(),
+            ridge,
+            penalty: [0.0; MAX_VARIABLES],
+            lower: [f64::NEG_INFINITY; MAX_VARIABLES],
+            upper: [f64::INFINITY; MAX_VARIABLES],
+        }
+    }
+
+    /// `x` within the bounds.
+    fn bounded(&self, i: usize, x: f64) -> f64 {
+        x.max(self.lower[i]).min(self.upper[i])
+    }
+}
+
+/// Where a variable is: at rest at one of its ends or at the kink of its penalty, or free in between.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Place {
+    /// At its smallest value.
+    Lower,
+    /// Free, and negative if it is penalised.
+    Below,
+    /// At zero, because of its penalty.
+    Zero,
+    /// Free, and not negative if it is penalised.
+    Above,
+    /// At its largest value.
+    Upper,
+}
+
+/// Where all variables are: a good guess where those of a similar problem are.
+pub type Places = [Place; MAX_VARIABLES];
+
+/// The guess of who knows nothing: all variables are free.
+pub const FREE: Places = [Place::Above; MAX_VARIABLES];
+
+/// What an answer is worth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Outcome {
+    /// It is the minimum, and the equalities hold.
+    Solved,
+    /// It is the minimum, but within the bounds the equalities do not hold.
+    Missed,
+    /// It is within the bounds, but numbers beyond the range of arithmetic prevented a minimum.
+    Unfinished,
+}
+
+/// An answer.
+#[derive(Debug, Clone, Copy)]
+pub struct Solution {
+    /// The variables.
+    pub x: Vector,
+    /// Where they are: the guess for the next problem.
+    pub places: Places,
+    /// What they are worth.
+    pub outcome: Outcome,
+}
+
+/// Solves `problem`; `guess` where the variables will be saves time and changes nothing but rounding.
+#[must_use]
+pub fn solve(problem: &Problem, guess: &Places) -> Solution {
+    let n = problem.variables;
+    let none = Rows::default();
+    let mut search = Search::new(&problem.objective, &problem.equalities, problem, problem.ridge, &problem.penalty);
+    let mut outcome = Outcome::Solved;
+    if !search.take(guess) {
+        // First the equalities alone, without anything else.
+        let size = problem.equalities.size();
+        let ridge = FIRST_RIDGE * if size > 0.0 { size * size } else { 1.0 };
+        let no_penalty = [0.0; MAX_VARIABLES];
+        let mut first = Search::new(&problem.equalities, &none, problem, ridge, &no_penalty);
+        first.start(search.x);
+        let finished = first.descend();
+        let mut movable = first.movable;
+        if !finished {
+            outcome = Outcome::Unfinished;
+        } else if !problem.equalities.met_by(&first.x) {
+            // Bounds against which the equalities press stay where they are: their error is the least one.
+            outcome = Outcome::Missed;
+            let (pull, size) = pull(&problem.equalities, &first.x);
+            for i in 0..n {
+                movable[i] &= first.free[i] || pull[i].abs() <= PULL * size;
+            }
+        }
+        search.movable = movable;
+        search.start(first.x);
+    }
+    search.complete();
+    if !search.descend() {
+        outcome = Outcome::Unfinished;
+    }
+    let mut x = search.x;
+    (0..n).for_each(|i| x[i] = problem.bounded(i, x[i]));
+    Solution { x, places: search.places(), outcome }
+}
+
+/// How strongly the error of `rows` at `x` pulls at each variable, and how strongly it could.
+fn pull(rows: &Rows, x: &Vector) -> (Vector, f64) {
+    let (mut pull, mut error_size) = ([0.0; MAX_VARIABLES], 0.0);
+    for (row, value) in rows.iter() {
+        let error = dot(row, x) - value;
+        error_size += error.abs();
+        pull.iter_mut().zip(row).for_each(|(pull, coefficient)| *pull += coefficient * error);
+    }
+    (pull, rows.size() * error_size)
+}
+
+/// Largest absolute value.
+fn largest(x: &[f64]) -> f64 {
+    x.iter().fold(0.0, |largest, x| x.abs().max(largest))
+}
+
+/// Scalar product.
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}

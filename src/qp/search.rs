@@ -1,0 +1,286 @@
+//! From one working set to the next, downhill.
+
+use super::triangle::Triangle;
+use super::{MAX_ROWS, MAX_VARIABLES, NullSpace, Place, Places, Problem, Rows, Vector, dot, largest};
+
+/// Working sets at most; a few are enough, and arithmetic beyond its range alone leads here.
+const STEPS: usize = 100;
+
+/// Slopes below this share of their terms are none.
+const FLAT: f64 = 1e-12;
+
+/// Variables that move by less than this share of the largest motion are at rest.
+const AT_REST: f64 = 1e-12;
+
+/// Steps below this share of the variables have no length.
+const ROUNDING: f64 = 1e-14;
+
+/// Minimises |A x - b|^2 + ridge |x|^2 + sum of penalties within the bounds while E x keeps its value.
+pub(super) struct Search<'a> {
+    objective: &'a Rows,
+    equalities: &'a Rows,
+    problem: &'a Problem,
+    ridge: f64,
+    penalty: &'a Vector,
+    /// Where it is.
+    pub x: Vector,
+    /// Which variables are in motion; the others rest at an end or at a kink.
+    pub free: [bool; MAX_VARIABLES],
+    /// Which may ever move.
+    pub movable: [bool; MAX_VARIABLES],
+    /// Sign of each penalised variable in motion: its penalty is linear up to 0.
+    side: Vector,
+}
+
+impl<'a> Search<'a> {
+    /// At the point nearest to 0, with every variable at rest.
+    pub fn new(
+        objective: &'a Rows,
+        equalities: &'a Rows,
+        problem: &'a Problem,
+        ridge: f64,
+        penalty: &'a Vector,
+    ) -> Self {
+        let n = problem.variables;
+        let within = |i: usize| if i < n { problem.bounded(i, 0.0) } else { 0.0 };
+        Self {
+            objective,
+            equalities,
+            problem,
+            ridge,
+            penalty,
+            x: std::array::from_fn(within),
+            free: [false; MAX_VARIABLES],
+            movable: std::array::from_fn(|i| i < n && problem.lower[i] < problem.upper[i]),
+            side: [1.0; MAX_VARIABLES],
+        }
+    }
+
+    /// Puts the variables where `guess` has them, the free ones at their minimum with the equalities; true if
+    /// the bounds and the equalities then hold.
+    pub fn take(&mut self, guess: &Places) -> bool {
+        let Problem { variables: n, lower, upper, .. } = self.problem;
+        for i in 0..*n {
+            let (rest, x, side) = match guess[i] {
+                Place::Lower => (lower[i].is_finite(), lower[i], 1.0),
+                Place::Upper => (upper[i].is_finite(), upper[i], 1.0),
+                Place::Zero => (self.penalty[i] > 0.0 && lower[i] <= 0.0 && upper[i] >= 0.0, 0.0, 1.0),
+                Place::Below => (false, 0.0, -1.0),
+                Place::Above => (false, 0.0, 1.0),
+            };
+            self.free[i] = self.movable[i] && !rest;
+            self.side[i] = if self.penalty[i] == 0.0 { 1.0 } else { side };
+            if self.movable[i] {
+                self.x[i] = if rest { x } else { 0.0 };
+            }
+        }
+        let space = NullSpace::new(self.equalities, &self.free);
+        let mut missing = [0.0; MAX_ROWS];
+        for (missing, (row, value)) in missing.iter_mut().zip(self.equalities.iter()) {
+            *missing = value - dot(row, &self.x);
+        }
+        self.scatter(&space, &space.particular(&missing));
+        let step = self.step(&space);
+        self.scatter(&space, &step);
+        let within = (0..*n).all(|i| self.x[i].is_finite() && self.x[i] >= lower[i] && self.x[i] <= upper[i]);
+        if within && self.equalities.met_by(&self.x) {
+            self.take_sides();
+            return true;
+        }
+        // As near as the bounds allow; whatever is no number is forgotten.
+        for i in 0..*n {
+            let x = if self.x[i].is_finite() { self.x[i] } else { 0.0 };
+            self.x[i] = self.problem.bounded(i, x);
+        }
+        false
+    }
+
+    /// Puts the variables at `x` within the bounds; those at an end or at a kink rest.
+    pub fn start(&mut self, x: Vector) {
+        self.x = x;
+        for (i, x) in x.iter().enumerate().take(self.problem.variables) {
+            let inside = *x > self.problem.lower[i] && *x < self.problem.upper[i];
+            self.free[i] = self.movable[i] && inside && !(self.penalty[i] > 0.0 && *x == 0.0);
+        }
+        self.take_sides();
+    }
+
+    fn take_sides(&mut self) {
+        for i in 0..self.problem.variables {
+            let positive = self.x[i] > 0.0 || (self.x[i] == 0.0 && self.problem.upper[i] > 0.0);
+            self.side[i] = if positive || self.penalty[i] == 0.0 { 1.0 } else { -1.0 };
+        }
+    }
+
+    /// Sets variables free until the equalities have all the rank that they can have: their multipliers are
+    /// unique then, and remain so.
+    pub fn complete(&mut self) {
+        let rank = |free: &[bool]| NullSpace::new(self.equalities, free).rank();
+        let mut present = rank(&self.free);
+        if present == self.equalities.count {
+            return;
+        }
+        let full = rank(&self.movable);
+        for i in 0..self.problem.variables {
+            if present == full {
+                return;
+            }
+            if self.movable[i] && !self.free[i] {
+                self.free[i] = true;
+                let with = NullSpace::new(self.equalities, &self.free).rank();
+                self.free[i] = with > present;
+                present = present.max(with);
+            }
+        }
+    }
+
+    /// Walks to the minimum; false if it was not reached.
+    pub fn descend(&mut self) -> bool {
+        let mut stalled = false;
+        for _ in 0..STEPS {
+            let space = NullSpace::new(self.equalities, &self.free);
+            let step = self.step(&space);
+            let before = self.x;
+            if !space.indices().iter().zip(&step).all(|(i, step)| (before[*i] + step).is_finite()) {
+                return false;
+            }
+            if let Some((share, i, end)) = self.first_stop(&space, &step) {
+                self.scatter(&space, &step.map(|step| step * share));
+                self.x[i] = end;
+                self.free[i] = false;
+                stalled = self.rests_at(&before);
+                continue;
+            }
+            self.scatter(&space, &step);
+            stalled = stalled && self.rests_at(&before);
+            let Some((i, side)) = self.entering(&space, stalled) else { return true };
+            self.free[i] = true;
+            self.side[i] = side;
+        }
+        false
+    }
+
+    /// Whether it has moved from `before` by no more than rounding.
+    fn rests_at(&self, before: &Vector) -> bool {
+        let size = largest(&self.x);
+        self.x.iter().zip(before).all(|(x, before)| (x - before).abs() <= ROUNDING * size)
+    }
+
+    /// Moves the free variables by `step`.
+    fn scatter(&mut self, space: &NullSpace, step: &Vector) {
+        for (i, step) in space.indices().iter().zip(step) {
+            self.x[*i] += step;
+        }
+    }
+
+    /// The way to the minimum over the free variables, regardless of their ends.
+    fn step(&self, space: &NullSpace) -> Vector {
+        if space.dimension() == 0 {
+            return [0.0; MAX_VARIABLES];
+        }
+        let here = space.coordinates(space.part(&self.x)).map(|x| -x);
+        let mut triangle = Triangle::new(self.ridge, space.inner(&here));
+        for (row, value) in self.objective.iter() {
+            let coordinates = space.coordinates(space.part(row));
+            triangle.add(space.inner(&coordinates), value - dot(row, &self.x));
+        }
+        let slope = space.coordinates(space.part(&self.slopes()));
+        space.direction(&triangle.minimum(space.inner(&slope)))
+    }
+
+    /// Half the slopes of the penalties of variables in motion.
+    fn slopes(&self) -> Vector {
+        std::array::from_fn(|i| 0.5 * self.penalty[i] * self.side[i])
+    }
+
+    /// Where a variable in motion has to stop.
+    fn ends(&self, i: usize) -> (f64, f64) {
+        let (lower, upper) = (self.problem.lower[i], self.problem.upper[i]);
+        match (self.penalty[i] > 0.0, self.side[i] > 0.0) {
+            (false, _) => (lower, upper),
+            (true, true) => (lower.max(0.0), upper),
+            (true, false) => (lower, upper.min(0.0)),
+        }
+    }
+
+    /// The first variable that `step` would carry past its end: share of the step, variable and end.
+    fn first_stop(&self, space: &NullSpace, step: &Vector) -> Option<(f64, usize, f64)> {
+        let fastest = largest(step);
+        let mut first: Option<(f64, usize, f64)> = None;
+        for (&i, &step) in space.indices().iter().zip(step) {
+            if step.abs() <= AT_REST * fastest {
+                continue;
+            }
+            let (lower, upper) = self.ends(i);
+            let end = if step > 0.0 { upper } else { lower };
+            let share = ((end - self.x[i]) / step).max(0.0);
+            if share < first.map_or(1.0, |(least, ..)| least) {
+                first = Some((share, i, end));
+            }
+        }
+        first
+    }
+
+    /// The variable at rest that is to move, and the side on which: the steepest one, or that of the least
+    /// index.
+    fn entering(&self, space: &NullSpace, least_index: bool) -> Option<(usize, f64)> {
+        // Half the gradient without penalties, and the size of the terms in it.
+        let mut gradient = self.x.map(|x| self.ridge * x);
+        let mut terms = gradient.map(f64::abs);
+        for (row, value) in self.objective.iter() {
+            let error = dot(row, &self.x) - value;
+            let size = row.iter().zip(&self.x).map(|(a, x)| (a * x).abs()).sum::<f64>() + value.abs();
+            for i in 0..self.problem.variables {
+                gradient[i] += row[i] * error;
+                terms[i] += row[i].abs() * size;
+            }
+        }
+        let slopes = self.slopes();
+        let total = std::array::from_fn(|i| gradient[i] + slopes[i]);
+        let multipliers = space.multipliers(&space.coordinates(space.part(&total)));
+        for (multiplier, (row, _)) in multipliers.iter().zip(self.equalities.iter()) {
+            for i in 0..self.problem.variables {
+                gradient[i] -= row[i] * multiplier;
+                terms[i] += (row[i] * multiplier).abs();
+            }
+        }
+
+        let mut best: Option<(f64, usize, f64)> = None;
+        for i in (0..self.problem.variables).filter(|i| self.movable[*i] && !self.free[*i]) {
+            let (x, weight) = (self.x[i], 0.5 * self.penalty[i]);
+            let upwards = if x < 0.0 { -weight } else { weight };
+            let downwards = if x > 0.0 { weight } else { -weight };
+            let (mut gain, mut side) = (0.0, 1.0);
+            if x < self.problem.upper[i] && -(gradient[i] + upwards) > gain {
+                (gain, side) = (-(gradient[i] + upwards), if x < 0.0 { -1.0 } else { 1.0 });
+            }
+            if x > self.problem.lower[i] && gradient[i] + downwards > gain {
+                (gain, side) = (gradient[i] + downwards, if x > 0.0 { 1.0 } else { -1.0 });
+            }
+            if gain > FLAT * (terms[i] + weight) && best.is_none_or(|(most, ..)| gain > most) {
+                best = Some((gain, i, side));
+                if least_index {
+                    break;
+                }
+            }
+        }
+        best.map(|(_, i, side)| (i, if self.penalty[i] > 0.0 { side } else { 1.0 }))
+    }
+
+    /// Where the variables are.
+    pub fn places(&self) -> Places {
+        let Problem { variables: n, lower, upper, .. } = self.problem;
+        std::array::from_fn(|i| {
+            let x = self.x[i];
+            if i >= *n || self.free[i] {
+                if self.side[i] > 0.0 { Place::Above } else { Place::Below }
+            } else if x <= lower[i] {
+                Place::Lower
+            } else if x >= upper[i] {
+                Place::Upper
+            } else {
+                Place::Zero
+            }
+        })
+    }
+}

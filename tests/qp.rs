@@ -1,0 +1,311 @@
+//! Small quadratic programs against an interior-point solver and against the conditions of optimality.
+
+#![allow(clippy::unwrap_used)] // in helpers, too
+
+mod common;
+
+use common::cases;
+use common::random::Random;
+use nalgebra::{DMatrix, DVector};
+use proptest::prelude::*;
+use uam::qp::{FREE, MAX_ROWS, MAX_VARIABLES, Outcome, Place, Places, Problem, Solution, Vector, solve};
+
+#[path = "qp/oracle.rs"]
+mod oracle;
+
+/// A problem with its matrices in the open.
+struct Case {
+    problem: Problem,
+    equalities: (DMatrix<f64>, DVector<f64>),
+    objective: (DMatrix<f64>, DVector<f64>),
+}
+
+fn case(
+    lower: &[f64],
+    upper: &[f64],
+    penalty: &[f64],
+    ridge: f64,
+    equalities: (DMatrix<f64>, DVector<f64>),
+    objective: (DMatrix<f64>, DVector<f64>),
+) -> Case {
+    let n = lower.len();
+    let mut problem = Problem::new(n, ridge);
+    for i in 0..n {
+        (problem.lower[i], problem.upper[i], problem.penalty[i]) = (lower[i], upper[i], penalty[i]);
+    }
+    for (rows, (matrix, right)) in [(&mut problem.equalities, &equalities), (&mut problem.objective, &objective)] {
+        for (row, value) in matrix.row_iter().zip(right.iter()) {
+            rows.push(&row.iter().copied().collect::<Vec<_>>(), *value);
+        }
+    }
+    Case { problem, equalities, objective }
+}
+
+impl Case {
+    fn n(&self) -> usize {
+        self.problem.variables
+    }
+
+    fn x(&self, solution: &Solution) -> DVector<f64> {
+        DVector::from_column_slice(&solution.x[..self.n()])
+    }
+
+    fn equality_error(&self, x: &DVector<f64>) -> f64 {
+        (&self.equalities.0 * x - &self.equalities.1).norm()
+    }
+
+    fn cost(&self, x: &DVector<f64>) -> f64 {
+        let penalty: f64 = x.iter().zip(&self.problem.penalty).map(|(x, weight)| weight * x.abs()).sum();
+        (&self.objective.0 * x - &self.objective.1).norm_squared() + self.problem.ridge * x.norm_squared() + penalty
+    }
+
+    fn assert_within(&self, x: &DVector<f64>) {
+        for (i, x) in x.iter().enumerate() {
+            assert!(
+                (self.problem.lower[i]..=self.problem.upper[i]).contains(x),
+                "x{i} = {x} is not within {} and {}",
+                self.problem.lower[i],
+                self.problem.upper[i]
+            );
+        }
+    }
+}
+
+/// Problems in which everything goes wrong that can: dependent and contradictory rows, fixed variables, bounds
+/// on one side, at zero and far from the equalities, whole numbers, so that ties and degenerate corners
+/// are common.
+fn nasty(random: &mut Random) -> Case {
+    let n = random.between(2.0, 8.999) as usize;
+    let whole = random.coin();
+    let number = |random: &mut Random| {
+        let number = random.about_zero(2.5);
+        if whole { number.round() } else { number }
+    };
+    let rows = |random: &mut Random, most: f64| {
+        let count = random.between(0.0, most + 0.999) as usize;
+        let mut matrix = DMatrix::from_fn(count, n, |_, _| number(random));
+        let mut right = DVector::from_fn(count, |_, _| number(random));
+        if count > 1 && random.unit() < 0.3 {
+            // One row again, doubled, with the same or with another right-hand side.
+            let again = matrix.row(0) * 2.0;
+            matrix.set_row(count - 1, &again);
+            if random.coin() {
+                right[count - 1] = 2.0 * right[0];
+            }
+        }
+        if n > 2 && random.unit() < 0.2 {
+            let again = matrix.column(0).clone_owned();
+            matrix.set_column(1, &again);
+        }
+        (matrix, right)
+    };
+    let equalities = rows(random, (MAX_ROWS.min(n) - 1) as f64);
+    let objective = rows(random, MAX_ROWS as f64);
+    let mut bounds = Vec::new();
+    for _ in 0..n {
+        let (a, b) = (random.about_zero(2.0), random.about_zero(2.0));
+        let (a, b) = if whole { (a.round(), b.round()) } else { (a, b) };
+        bounds.push(match random.between(0.0, 6.0) as usize {
+            0 => (f64::NEG_INFINITY, f64::INFINITY),
+            1 => (a, f64::INFINITY),
+            2 => (a, a),
+            _ => (a.min(b), a.max(b)),
+        });
+    }
+    let penalised = random.coin();
+    let penalty: Vec<f64> =
+        (0..n).map(|_| if penalised && random.coin() { random.between(0.01, 2.0) } else { 0.0 }).collect();
+    let ridge = 10.0_f64.powf(random.between(-4.0, 0.0));
+    let (lower, upper): (Vec<f64>, Vec<f64>) = bounds.into_iter().unzip();
+    case(&lower, &upper, &penalty, ridge, equalities, objective)
+}
+
+/// Guesses that have nothing to do with the problem.
+fn any_guess(random: &mut Random) -> Places {
+    const ALL: [Place; 5] = [Place::Lower, Place::Below, Place::Zero, Place::Above, Place::Upper];
+    std::array::from_fn(|_| ALL[random.between(0.0, 4.999) as usize])
+}
+
+proptest! {
+    #![proptest_config(cases(2000))]
+
+    #[test]
+    fn no_answer_of_an_interior_point_method_is_better(seed: u64) {
+        let mut random = Random(seed);
+        let case = nasty(&mut random);
+        let found = solve(&case.problem, &any_guess(&mut random));
+        let x = case.x(&found);
+        case.assert_within(&x);
+        prop_assert!(found.outcome != Outcome::Unfinished);
+
+        // First the equalities, ...
+        let least = oracle::least_equality_error(&case);
+        let error = case.equality_error(&x);
+        prop_assert!(error <= least + 1e-6, "equalities off by {error}, could be {least}");
+        if found.outcome == Outcome::Solved {
+            prop_assert!(error <= 1e-9, "equalities off by {error}");
+        } else {
+            prop_assert!(least > 0.0 && error > 1e-12);
+        }
+        // ... then the rest, with the equalities as they are.
+        let best = oracle::least_cost(&case, &x);
+        let scale = 1.0 + case.cost(&x).abs();
+        prop_assert!(case.cost(&x) <= case.cost(&best) + 1e-6 * scale, "{} > {}", case.cost(&x), case.cost(&best));
+        let ridge = case.problem.ridge;
+        prop_assert!((&x - &best).norm() <= 1e-3 * scale / ridge.sqrt(), "{x} {best}");
+    }
+
+    #[test]
+    fn the_guess_does_not_matter(seed: u64) {
+        let mut random = Random(seed);
+        let case = nasty(&mut random);
+        let cold = solve(&case.problem, &FREE);
+        for guess in [cold.places, any_guess(&mut random), any_guess(&mut random)] {
+            let warm = solve(&case.problem, &guess);
+            prop_assert_eq!(warm.outcome, cold.outcome);
+            for (warm, cold) in warm.x.iter().zip(&cold.x) {
+                prop_assert!((warm - cold).abs() <= 1e-7 * (1.0 + cold.abs()), "{warm} {cold}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_conditions_of_optimality_hold(seed: u64) {
+        let mut random = Random(seed);
+        let case = feasible(&mut random);
+        let found = solve(&case.problem, &FREE);
+        let x = case.x(&found);
+        prop_assert_eq!(found.outcome, Outcome::Solved);
+        case.assert_within(&x);
+        prop_assert!(case.equality_error(&x) <= 1e-11);
+        check_slopes(&case, &x);
+    }
+
+    #[test]
+    fn hostile_numbers_do_no_harm(seed: u64) {
+        const HOSTILE: [f64; 8] =
+            [0.0, -0.0, 1e308, -1e308, 5e-324, f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
+        let mut random = Random(seed);
+        let mut problem = nasty(&mut random).problem;
+        let mut row: Vector = std::array::from_fn(|_| random.about_zero(1.0));
+        row[random.between(0.0, 7.999) as usize] = HOSTILE[random.between(0.0, 7.999) as usize];
+        let rows = if random.coin() { &mut problem.objective } else { &mut problem.equalities };
+        *rows = uam::qp::Rows::default();
+        rows.push(&row, if random.coin() { 1.0 } else { HOSTILE[random.between(0.0, 7.999) as usize] });
+        let found = solve(&problem, &any_guess(&mut random));
+        for i in 0..problem.variables {
+            let x = found.x[i];
+            prop_assert!(x.is_finite() && x >= problem.lower[i] && x <= problem.upper[i], "{x}");
+        }
+    }
+}
+
+/// Random numbers of moderate size with equalities that some point inside the bounds meets; ridge as small as in use.
+fn feasible(random: &mut Random) -> Case {
+    let n = random.between(2.0, 8.999) as usize;
+    let matrix = |random: &mut Random, rows| DMatrix::from_fn(rows, n, |_, _| random.about_zero(1.0));
+    let inside = DVector::from_fn(n, |_, _| random.about_zero(1.0));
+    let lower: Vec<f64> = inside.iter().map(|x| x - random.between(0.0, 1.0)).collect();
+    let upper: Vec<f64> = inside.iter().map(|x| x + random.between(0.0, 1.0)).collect();
+    let rows = random.between(0.0, n.min(3) as f64) as usize;
+    let equalities = matrix(random, rows);
+    let right = &equalities * &inside;
+    let rows = random.between(0.0, 3.0) as usize;
+    let objective = matrix(random, rows);
+    let aim = DVector::from_fn(rows, |_, _| random.about_zero(2.0));
+    let penalty = vec![if random.coin() { 0.0 } else { random.between(0.01, 0.5) }; n];
+    let ridge = 10.0_f64.powf(random.between(-12.0, -2.0));
+    case(&lower, &upper, &penalty, ridge, (equalities, right), (objective, aim))
+}
+
+/// With the multipliers of the equalities that fit the variables in motion best: their slope is zero, and those
+/// at rest would have to go uphill.
+fn check_slopes(case: &Case, x: &DVector<f64>) {
+    let gradient =
+        2.0 * (case.objective.0.transpose() * (&case.objective.0 * x - &case.objective.1) + case.problem.ridge * x);
+    let (lower, upper, penalty) = (&case.problem.lower, &case.problem.upper, &case.problem.penalty);
+    let kinked = |i: usize| penalty[i] > 0.0 && x[i] == 0.0;
+    let moving: Vec<usize> = (0..case.n()).filter(|&i| x[i] > lower[i] && x[i] < upper[i] && !kinked(i)).collect();
+    let rows = case.equalities.0.nrows();
+    if moving.len() < rows {
+        return; // the multipliers are not unique
+    }
+    let part = DMatrix::from_fn(moving.len(), rows, |k, row| case.equalities.0[(row, moving[k])]);
+    let slope = DVector::from_fn(moving.len(), |k, _| gradient[moving[k]] + penalty[moving[k]] * x[moving[k]].signum());
+    let multipliers = if rows == 0 || moving.is_empty() {
+        DVector::zeros(rows)
+    } else {
+        let svd = part.clone().svd(true, true);
+        if svd.singular_values.min() < 1e-3 {
+            return;
+        }
+        svd.solve(&slope, 0.0).unwrap()
+    };
+    let left = &gradient - case.equalities.0.transpose() * &multipliers;
+    let tolerance = 1e-9 * (1.0 + gradient.amax() + multipliers.amax());
+    for i in 0..case.n() {
+        let upwards = left[i] + if x[i] < 0.0 { -penalty[i] } else { penalty[i] };
+        let downwards = left[i] - if x[i] > 0.0 { -penalty[i] } else { penalty[i] };
+        assert!(x[i] == upper[i] || upwards >= -tolerance, "x{i} = {} should rise: {upwards}", x[i]);
+        assert!(x[i] == lower[i] || downwards <= tolerance, "x{i} = {} should fall: {downwards}", x[i]);
+    }
+}
+
+#[test]
+fn the_equalities_give_way_first_and_least() {
+    // x + y = 5 within x <= 1, y <= 2, where the objective would like to have x = -10.
+    let row = |row: &[f64]| DMatrix::from_row_slice(1, row.len(), row);
+    let case = case(
+        &[-3.0, -3.0],
+        &[1.0, 2.0],
+        &[0.0, 0.0],
+        1e-6,
+        (row(&[1.0, 1.0]), DVector::from_element(1, 5.0)),
+        (row(&[1.0, 0.0]), DVector::from_element(1, -10.0)),
+    );
+    let found = solve(&case.problem, &FREE);
+    assert_eq!((found.x[0], found.x[1], found.outcome), (1.0, 2.0, Outcome::Missed));
+}
+
+#[test]
+fn what_does_not_matter_is_smallest() {
+    // One equation, four variables, nothing else: the pseudo-inverse.
+    let row = [1.0, -2.0, 0.5, 3.0];
+    let mut problem = Problem::new(4, 1e-12);
+    problem.equalities.push(&row, 2.0);
+    let found = solve(&problem, &FREE);
+    let size: f64 = row.iter().map(|a| a * a).sum();
+    for (x, a) in found.x.iter().zip(row) {
+        assert!((x - 2.0 * a / size).abs() < 1e-15);
+    }
+    // Likewise as objective, where the ridge takes its share of 1e-12.
+    problem.equalities = uam::qp::Rows::default();
+    problem.objective.push(&row, 2.0);
+    let found = solve(&problem, &FREE);
+    for (x, a) in found.x.iter().zip(row) {
+        assert!((x - 2.0 * a / size).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn a_penalty_keeps_small_variables_at_zero() {
+    // (x - 1)^2 + 3 |x| is smallest at 0, (x - 4)^2 + 3 |x| at 2.5.
+    for (aim, expected) in [(1.0, 0.0), (4.0, 2.5), (-4.0, -2.5)] {
+        let mut problem = Problem::new(2, 1e-15);
+        problem.objective.push(&[1.0, 0.0], aim);
+        problem.penalty[0] = 3.0;
+        let found = solve(&problem, &FREE);
+        assert!((found.x[0] - expected).abs() < 1e-12 && found.x[1] == 0.0, "{:?}", found.x);
+        assert_eq!(found.places[0] == Place::Zero, expected == 0.0);
+    }
+}
+
+#[test]
+fn more_than_there_is_room_for_is_ignored() {
+    let mut problem = Problem::new(MAX_VARIABLES + 1, 1.0);
+    for _ in 0..=MAX_ROWS {
+        problem.objective.push(&[1.0; MAX_VARIABLES + 1], 1.0);
+    }
+    assert_eq!(problem.variables, MAX_VARIABLES);
+    assert_eq!(solve(&problem, &FREE).outcome, Outcome::Solved);
+}
