@@ -3,6 +3,7 @@
 mod euler;
 mod exact;
 mod planner;
+mod prediction;
 mod resolution;
 mod response;
 

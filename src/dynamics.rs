@@ -10,6 +10,7 @@ mod contact;
 mod instant;
 mod law;
 mod loads;
+mod moment;
 mod rates;
 mod runge_kutta;
 
@@ -27,7 +28,7 @@ use crate::error::{Error, Result};
 use crate::kinematics::Configuration;
 use crate::memory;
 use crate::momentum::Twist;
-use crate::parameters::{BaseModel, Parameters, Structure, Support};
+use crate::parameters::{BaseModel, MomentModel, Parameters, Structure, Support};
 use crate::planar::{Turn, Vec2};
 use crate::vehicle::Vehicle;
 
@@ -203,15 +204,25 @@ pub struct Impulse<const N: usize> {
     /// For each joint, of the moments of weight and outer loads outboard of it, about it, less joint velocity
     /// x outboard momentum \[N m s\].
     pub outboard: SVector<f64, N>,
+    /// Of the moments of weight and outer loads on what the UAV carries, about the UAV's centre of mass, less
+    /// its velocity x momentum, as the moment model has it \[N m s\]; computed unless `outboard` is.
+    pub carried: f64,
 }
 
-memory!(Impulse<N> { thrust, axial_thrust, torque, support, outboard });
+memory!(Impulse<N> { thrust, axial_thrust, torque, support, outboard, carried });
 
 impl<const N: usize> Impulse<N> {
     /// No impulse.
     #[must_use]
     pub fn zero() -> Self {
-        Self { thrust: Vec2::zeros(), axial_thrust: 0.0, torque: 0.0, support: 0.0, outboard: SVector::zeros() }
+        Self {
+            thrust: Vec2::zeros(),
+            axial_thrust: 0.0,
+            torque: 0.0,
+            support: 0.0,
+            outboard: SVector::zeros(),
+            carried: 0.0,
+        }
     }
 }
 
@@ -225,6 +236,7 @@ impl<const N: usize> Add for Impulse<N> {
             torque: self.torque + other.torque,
             support: self.support + other.support,
             outboard: self.outboard + other.outboard,
+            carried: self.carried + other.carried,
         }
     }
 }
@@ -239,6 +251,7 @@ impl<const N: usize> Mul<f64> for Impulse<N> {
             torque: self.torque * factor,
             support: self.support * factor,
             outboard: self.outboard * factor,
+            carried: self.carried * factor,
         }
     }
 }
@@ -250,6 +263,8 @@ pub struct Dynamics<const N: usize> {
     pub vehicle: Vehicle<N>,
     /// How the base moves.
     pub base: BaseModel,
+    /// What the arm feels of it.
+    pub moment_model: MomentModel,
     /// Hover control.
     pub autopilot: Autopilot,
     /// Support of the payload.
@@ -280,6 +295,7 @@ impl<const N: usize> Dynamics<N> {
         let mut dynamics = Self {
             vehicle,
             base: if parameters.autopilot.mode == AutopilotMode::Ideal { BaseModel::Ideal } else { base },
+            moment_model: parameters.ik.moment_model,
             autopilot: parameters.autopilot.clone(),
             support: parameters.support.clone(),
             hover_thrust,

@@ -198,8 +198,20 @@ options! {
     pub enum Resolution {
         #[doc = " Smallest joint rates (right pseudo-inverse of the generalized Jacobian)."]
         MinimumNorm = "minimum_norm",
-        #[doc = " No moment on the UAV (extended Jacobian, thesis 3.6)."]
+        #[doc = " No moment on the UAV by the moment model (extended Jacobian, thesis 3.2, 3.3 and 3.6)."]
         ExtendedJacobian = "extended_jacobian",
+    }
+}
+
+options! {
+    #[doc = " What the arm is taken to feel of the base's motion, in the moment that it exerts on the UAV."]
+    pub enum MomentModel {
+        #[doc = " Nothing (thesis 3.2)."]
+        FixedBase = "fixed_base",
+        #[doc = " Its horizontal velocity (thesis 3.3)."]
+        SlidingBase = "sliding_base",
+        #[doc = " All that the base model predicts of it (thesis 3.6)."]
+        FreeBase = "free_base",
     }
 }
 
@@ -222,6 +234,8 @@ pub struct InverseKinematics {
     pub base_model: BaseModel,
     /// Use of redundancy.
     pub resolution: Resolution,
+    /// Prediction of the moment on the UAV.
+    pub moment_model: MomentModel,
     /// Prediction of the coming interval.
     pub discretization: Discretization,
 }

@@ -6,15 +6,15 @@
 //! minimum norm would let motion in the null space grow without bound.
 
 use super::planner::Plan;
+use super::prediction::Prediction;
 use super::resolution::{Problem, Task};
-use super::response::moment_impulse;
 use super::{Controller, Status};
 use crate::dynamics::{Loads, Motion};
 use crate::error::Result;
 use crate::planar::Vec2;
 
-/// Iterations of a plan at most; two do normally.
-const ITERATIONS: usize = 4;
+/// Iterations of a plan at most; two do normally, more where a stiff autopilot answers within the interval.
+const ITERATIONS: usize = 6;
 
 /// End effector this close to the reference at the end of the interval is on it \[m\].
 const ON_REFERENCE: f64 = 1e-12;
@@ -34,15 +34,16 @@ impl<const N: usize> Controller<N> {
     pub(super) fn plan_exact(&self, t: f64, horizon: f64, target: Vec2) -> Result<Plan<N>> {
         let dynamics = &self.dynamics;
         // Rates that go on changing as they did are close already.
-        let mut plan = Plan::holding(self.rate * 2.0 - self.rate_before, self.situation);
+        let mut plan = Plan::holding(self.rate * 2.0 - self.rate_before, self.now);
         let mut nearest: Option<(f64, Plan<N>)> = None;
         for iteration in 0..=ITERATIONS {
-            plan.end = self.situation;
+            let mut end = self.now.situation;
             let motion = Motion::constant(plan.rate);
-            let impulse = dynamics.advance::<false>(&mut plan.end, &motion, &Loads::default(), t, horizon)?;
-            let moment = moment_impulse(dynamics, &self.situation.state, &plan.end.state, impulse.torque);
+            let impulse = dynamics.advance::<false>(&mut end, &motion, &Loads::default(), t, horizon)?;
+            plan.end = Prediction::at_end(dynamics, end);
+            let moment = self.now.carried + impulse.carried - plan.end.carried;
             plan.moment_residual = moment / horizon;
-            let missing = target - plan.end.place(plan.end.node.posture.end_effector);
+            let missing = target - plan.end.end_effector();
             let miss = missing.norm();
             let moment_free = !self.resolver.cancels_moment() || moment.abs() <= NO_IMPULSE;
             if iteration > 0 {
@@ -57,9 +58,9 @@ impl<const N: usize> Controller<N> {
                 break;
             }
 
-            let response = self.response(&plan.end);
-            let velocity = response.jacobian * plan.rate + plan.end.turn.undo(missing / horizon);
-            let moment = Task { row: response.moment, value: response.moment.dot(&plan.rate) - moment };
+            let response = self.response(&end);
+            let velocity = response.jacobian * plan.rate + end.turn.undo(missing / horizon);
+            let moment = Task { row: response.carried, value: response.carried.dot(&plan.rate) + moment };
             let resolved = self.resolver.solve(&Problem { path: response.jacobian, velocity, moment });
             (plan.rate, plan.status) = (resolved.rate, resolved.status);
             plan.min_singular_value = resolved.min_singular_value;

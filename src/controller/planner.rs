@@ -5,6 +5,7 @@
 
 use nalgebra::SVector;
 
+use super::prediction::Prediction;
 use super::resolution::Resolver;
 use super::response::Response;
 use super::{Inputs, Outputs, Planner, Rates, Status};
@@ -41,19 +42,19 @@ pub(super) struct Plan<const N: usize> {
     pub velocity_residual: f64,
     pub moment_residual: f64,
     /// The prediction at the end of the interval.
-    pub end: Situation<N>,
+    pub end: Prediction<N>,
 }
 
 impl<const N: usize> Plan<N> {
-    /// A plan to be made: so far it is in `situation`, moving at `rate`.
-    pub fn holding(rate: SVector<f64, N>, situation: Situation<N>) -> Self {
+    /// A plan to be made: so far it is where `now` is, moving at `rate`.
+    pub fn holding(rate: SVector<f64, N>, now: Prediction<N>) -> Self {
         Self {
             rate,
             status: Status::Ok,
             min_singular_value: 0.0,
             velocity_residual: 0.0,
             moment_residual: 0.0,
-            end: situation,
+            end: now,
         }
     }
 
@@ -63,7 +64,7 @@ impl<const N: usize> Plan<N> {
         if let Some(&value) = self.rate.iter().chain(&values).find(|value| !value.is_finite()) {
             return Err(Error::NotFinite { quantity: "planned rate or residual", value, time: t });
         }
-        self.end.state.check(t)
+        self.end.situation.state.check(t)
     }
 }
 
@@ -73,7 +74,7 @@ pub struct Controller<const N: usize> {
     pub(super) dynamics: Dynamics<N>,
     pub(super) resolver: Resolver<N>,
     /// The prediction.
-    pub(super) situation: Situation<N>,
+    pub(super) now: Prediction<N>,
     /// Rates sent.
     pub(super) rate: SVector<f64, N>,
     /// Rates of the plan before.
@@ -90,7 +91,7 @@ pub struct Controller<const N: usize> {
     planned_at: f64,
     horizon: f64,
     /// The prediction at the end of the planned interval.
-    planned_end: Situation<N>,
+    planned_end: Prediction<N>,
 }
 
 impl<const N: usize> Controller<N> {
@@ -127,8 +128,8 @@ impl<const N: usize> Controller<N> {
         if dynamics.autopilot.mode == AutopilotMode::External {
             dynamics.set_mode(AutopilotMode::Pid);
         }
-        let situation = dynamics.start(parameters);
-        let origin = situation.node.posture.end_effector;
+        let now = Prediction::at_rest(dynamics.start(parameters));
+        let origin = now.end_effector();
         Ok(Self {
             resolver: Resolver::new(&dynamics.vehicle, parameters),
             discretization: ik.discretization,
@@ -139,9 +140,9 @@ impl<const N: usize> Controller<N> {
             rate_before: SVector::zeros(),
             planned_at: 0.0,
             horizon: ik.sample_time,
-            planned_end: situation,
+            planned_end: now,
             dynamics,
-            situation,
+            now,
             origin,
             aim: origin,
         })
@@ -154,20 +155,16 @@ impl<const N: usize> Controller<N> {
 
     /// Takes the payload over in the prediction if it is time: the host is told at the same instant.
     fn grasp_in_time(&mut self, t: f64) {
-        if t >= self.grasp_time - SAME_TIME && !self.situation.state.held {
-            self.dynamics.grasp(&mut self.situation);
+        if t >= self.grasp_time - SAME_TIME && !self.now.situation.state.held {
+            self.dynamics.grasp(&mut self.now.situation);
         }
     }
 
-    /// Where the end effector is predicted to be now.
-    fn end_effector(&self) -> Vec2 {
-        self.situation.place(self.situation.node.posture.end_effector)
-    }
-
-    /// How it moves, just before any jump of the rates now.
+    /// How the end effector moves, just before any jump of the rates now.
     fn end_effector_velocity(&self) -> Vec2 {
-        let Situation { turn, node, .. } = &self.situation;
-        turn.apply(node.velocity_at(&self.dynamics.vehicle, node.posture.end_effector, self.situation.base()))
+        let situation = &self.now.situation;
+        let Situation { turn, node, .. } = situation;
+        turn.apply(node.velocity_at(&self.dynamics.vehicle, node.posture.end_effector, situation.base()))
     }
 
     /// Plans the interval from time `t` on.
@@ -191,11 +188,11 @@ impl<const N: usize> Controller<N> {
 
     /// A plan that brings the end effector to `target`, or as near to it as it may come in one interval.
     fn plan_towards(&self, t: f64, target: Vec2, inputs: &Inputs) -> Result<Plan<N>> {
-        let (here, now) = (self.end_effector(), self.target(t, 0.0, inputs).displacement);
+        let (here, now) = (self.now.end_effector(), self.target(t, 0.0, inputs).displacement);
         let left_over = (self.aim - here).cap_magnitude(CATCHING_UP * self.horizon);
         let unforeseen = (now - self.aim).cap_magnitude(UNFORESEEN * self.horizon);
         let mut plan = self.plan_exact(t, self.horizon, here + left_over + unforeseen + (target - now))?;
-        let missing = target - plan.end.place(plan.end.node.posture.end_effector);
+        let missing = target - plan.end.end_effector();
         plan.velocity_residual = missing.norm() / self.horizon;
         let shortened = (now - here) - (left_over + unforeseen);
         if plan.status == Status::Ok && shortened != Vec2::zeros() && missing.norm() > SHORTENED {
@@ -226,28 +223,28 @@ impl<const N: usize> Controller<N> {
     /// before its weight turns it the right way (thesis 3.8), so that rates which cancel the moment at every
     /// instant would grow without bound.
     pub(super) fn response(&self, situation: &Situation<N>) -> Response<N> {
-        let response = Response::new(&self.dynamics, &situation.node, situation.momentum());
+        let response = Response::new(&self.dynamics, situation);
         if self.dynamics.vehicle.counterweight.is_some() { response.holding(N - 1) } else { response }
     }
 
     /// Advances the prediction by `size` \[s\] at the rates sent.
     fn predict(&mut self, t: f64, size: f64) -> Result<()> {
         // The plan has already been there, if the host makes the step that it was made for.
-        self.situation = if size == self.horizon && (t - self.planned_at).abs() < SAME_TIME {
+        self.now = if size == self.horizon && (t - self.planned_at).abs() < SAME_TIME {
             self.planned_end
         } else if self.discretization == Discretization::Euler {
             self.predict_euler(t, size)
         } else {
             let motion = Motion::constant(self.rate);
-            let mut end = self.situation;
+            let mut end = self.now.situation;
             self.dynamics.advance::<false>(&mut end, &motion, &Loads::default(), t, size)?;
-            end
+            Prediction::at_end(&self.dynamics, end)
         };
-        self.situation.state.check(t + size)
+        self.now.situation.state.check(t + size)
     }
 
     fn write_prediction(&self, t: f64, inputs: &Inputs, outputs: &mut Outputs) {
-        let state = &self.situation.state;
+        let state = &self.now.situation.state;
         let now = self.target(t, 0.0, inputs);
         outputs.rate_command[..N].copy_from_slice(self.rate.as_slice());
         outputs.grasp = state.held;
@@ -256,7 +253,7 @@ impl<const N: usize> Controller<N> {
         outputs.predicted_pose = state.pose;
         outputs.predicted_velocity = state.velocity;
         outputs.predicted_position[..N].copy_from_slice(state.position.as_slice());
-        outputs.predicted_end_effector = self.end_effector();
+        outputs.predicted_end_effector = self.now.end_effector();
     }
 }
 
@@ -266,7 +263,7 @@ impl<const N: usize> Memory for Controller<N> {
         let Self {
             dynamics: _,
             resolver: _,
-            situation,
+            now,
             rate,
             rate_before,
             discretization: _,
@@ -279,7 +276,7 @@ impl<const N: usize> Memory for Controller<N> {
             horizon,
             planned_end,
         } = self;
-        situation.pass(tape);
+        now.pass(tape);
         [rate, rate_before].into_iter().for_each(|rate| rate.pass(tape));
         aim.pass(tape);
         [planned_at, horizon].into_iter().for_each(|time| time.pass(tape));
@@ -313,16 +310,16 @@ impl<const N: usize> Planner for Controller<N> {
         let mut rates = Rates {
             reference_velocity: self.target(t, 0.0, inputs).acceleration,
             predicted_end_effector: self.end_effector_velocity(),
-            predicted_velocity: self.dynamics.at_end(&self.situation, &held, &Load::NONE).acceleration,
+            predicted_velocity: self.dynamics.at_end(&self.now.situation, &held, &Load::NONE).acceleration,
             ..Rates::default()
         };
-        rates.predicted_position[..N].copy_from_slice(self.situation.state.rate.as_slice());
+        rates.predicted_position[..N].copy_from_slice(self.now.situation.state.rate.as_slice());
         rates
     }
 
     fn check_memory(&self) -> Result<()> {
-        self.situation.state.check_memory()?;
-        self.planned_end.state.check_memory()?;
+        self.now.check_memory()?;
+        self.planned_end.check_memory()?;
         let times = [("time of the last plan", self.planned_at), ("length of the planned interval", self.horizon)];
         match times.into_iter().find(|(_, value)| !value.is_finite()) {
             Some((quantity, value)) => Err(Error::Impossible { quantity, value }),

@@ -25,8 +25,8 @@ pub struct Trend {
     pub momentum: Vector3<f64>,
     /// Rates of the autopilot's integrals \[m, rad\].
     pub integrals: Vec2,
-    /// Torque of the rotors \[N m\].
-    pub torque: f64,
+    /// Rate of the angular momentum of what the UAV carries if no moment is exerted on the UAV \[N m\].
+    pub carried: f64,
 }
 
 impl<const N: usize> Dynamics<N> {
@@ -77,7 +77,7 @@ impl<const N: usize> Dynamics<N> {
         Trend {
             momentum: Vector3::new(rate[3], rate[4], rate[5]),
             integrals: vec2(rate[6], rate[7]),
-            torque: impulse.torque,
+            carried: impulse.carried,
         }
     }
 }

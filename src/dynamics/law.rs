@@ -193,6 +193,9 @@ impl<const N: usize> Dynamics<N> {
                 let weighed = cross(node.matrix.outboard_first[i], gravity);
                 impulse.outboard[i] = weighed + pushed - cross(outer.velocity, outer.momentum.linear);
             }
+        } else {
+            let outer = moment - control.y - load.base_torque;
+            impulse.carried = outer - self.carried_transport(node, turn, v);
         }
 
         let angular = moment - self.base.transport(velocity.xy(), vec2(y[3], y[4]), node.arm);

@@ -213,6 +213,11 @@ pub fn declare_controller<D: AsMut<Parameters>>(table: &mut Table<D>, structure:
         .choice("ik.resolution", "How a redundant arm chooses among the rates that follow the path", |d, _| {
             &mut d.as_mut().ik.resolution
         })
+        .choice(
+            "ik.moment_model",
+            "What the arm is taken to feel of the base's motion, in the moment that it exerts on the UAV",
+            |d, _| &mut d.as_mut().ik.moment_model,
+        )
         .choice("ik.discretization", "How the interval between two plans is predicted", |d, _| {
             &mut d.as_mut().ik.discretization
         })

@@ -5,8 +5,8 @@ use std::f64::consts::PI;
 use super::THESIS_STEP;
 use crate::autopilot::{Autopilot, AutopilotMode, Gains};
 use crate::parameters::{
-    BaseModel, Counterweight, Discretization, InverseKinematics, Joint, Link, MAX_LINKS, Mount, Parameters, Payload,
-    Resolution, Structure, Support, Uav,
+    BaseModel, Counterweight, Discretization, InverseKinematics, Joint, Link, MAX_LINKS, MomentModel, Mount,
+    Parameters, Payload, Resolution, Structure, Support, Uav,
 };
 use crate::reference::{Circle, Leg, Profile, Reference, ReferenceKind};
 
@@ -48,6 +48,7 @@ pub fn default_parameters(structure: Structure) -> Parameters {
             sample_time: THESIS_STEP,
             base_model: BaseModel::Full,
             resolution: if links > 2 { Resolution::ExtendedJacobian } else { Resolution::MinimumNorm },
+            moment_model: MomentModel::FreeBase,
             discretization: Discretization::Exact,
         },
         reference: Reference {

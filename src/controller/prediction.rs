@@ -1,0 +1,50 @@
+//! The predicted system, as far as the coming plan starts from it.
+
+use crate::dynamics::{Dynamics, Situation};
+use crate::error::{Error, Result};
+use crate::memory;
+use crate::planar::Vec2;
+
+/// A predicted instant.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Prediction<const N: usize> {
+    /// The system.
+    pub situation: Situation<N>,
+    /// Angular momentum of what the UAV carries, about the UAV's centre of mass, by the moment model \[N m s\].
+    ///
+    /// It does not follow from the situation at the instant when the payload is taken over, at rest: rates
+    /// are those of just before, masses those of just after.
+    pub carried: f64,
+}
+
+memory!(Prediction<N> { situation, carried });
+
+impl<const N: usize> Prediction<N> {
+    /// At rest.
+    pub fn at_rest(situation: Situation<N>) -> Self {
+        Self { situation, carried: 0.0 }
+    }
+
+    /// At the end of a step, with the payload held or not as in it.
+    pub fn at_end(dynamics: &Dynamics<N>, situation: Situation<N>) -> Self {
+        let Situation { node, turn, .. } = &situation;
+        let carried = dynamics.carried_momentum(node, *turn, situation.base(), node.arm).angular;
+        Self { situation, carried }
+    }
+
+    /// Whether a controller can be here.
+    ///
+    /// # Errors
+    /// Names the first quantity that it cannot have.
+    pub fn check_memory(&self) -> Result<()> {
+        if !self.carried.is_finite() {
+            return Err(Error::Impossible { quantity: "carried angular momentum", value: self.carried });
+        }
+        self.situation.state.check_memory()
+    }
+
+    /// Where the end effector is \[m\].
+    pub fn end_effector(&self) -> Vec2 {
+        self.situation.place(self.situation.node.posture.end_effector)
+    }
+}

@@ -1,0 +1,48 @@
+//! Models of the moment on the UAV: which of the base's motion the arm is taken to feel.
+//!
+//! For all that the UAV carries, of momentum `p_c` and angular momentum `K_c` about the UAV's centre of mass,
+//! which moves with `v_0` (thesis 3.23):
+//!
+//! > `K_c`' = moments of weight and outer loads - `v_0` x `p_c` - moment on the UAV
+//!
+//! The models differ in the motion of the base that enters `K_c`, `p_c` and `v_0`:
+//!
+//! | model          | thesis        | motion of the base                              |
+//! |----------------|---------------|-------------------------------------------------|
+//! | `fixed_base`   | 3.2, (3.9)    | none                                            |
+//! | `sliding_base` | 3.3, (3.13)   | the horizontal velocity                         |
+//! | `free_base`    | 3.6, (3.23)   | all in which the arm takes part by the base model |
+
+use super::{Dynamics, Node};
+use crate::momentum::Twist;
+use crate::parameters::MomentModel;
+use crate::planar::{Turn, cross, vec2};
+
+impl<const N: usize> Dynamics<N> {
+    /// What the arm feels of the base's motion `v`; axes of the UAV frame, which is turned by `turn`.
+    #[inline]
+    fn felt(&self, v: Twist, turn: Turn) -> Twist {
+        match self.moment_model {
+            MomentModel::FixedBase => Twist::ZERO,
+            MomentModel::SlidingBase => Twist { linear: turn.undo(vec2(turn.apply(v.linear).x, 0.0)), angular: 0.0 },
+            MomentModel::FreeBase => self.base.carried(v),
+        }
+    }
+
+    /// Momentum of all that the UAV carries, from what it feels of the base's motion `v` and from its own
+    /// motion `arm` relative to the base; linear in both.
+    #[inline]
+    #[must_use]
+    pub fn carried_momentum(&self, node: &Node<N>, turn: Turn, v: Twist, arm: Twist) -> Twist {
+        let v = self.felt(v, turn);
+        let uav = Twist { linear: v.linear * self.vehicle.uav_mass, angular: v.angular * self.vehicle.uav_inertia };
+        node.matrix.of_base(v) - uav + arm
+    }
+
+    /// How fast its angular momentum falls because the UAV's centre of mass moves: `v_0` x `p_c`.
+    #[inline]
+    pub(super) fn carried_transport(&self, node: &Node<N>, turn: Turn, v: Twist) -> f64 {
+        let momentum = self.carried_momentum(node, turn, v, node.arm);
+        cross(self.felt(v, turn).linear, momentum.linear)
+    }
+}
