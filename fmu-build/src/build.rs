@@ -18,7 +18,7 @@ const SSP_NAME: &str = "uam.ssp";
 /// What to build, and where to put it.
 #[derive(Debug, Clone)]
 pub struct BuildOptions {
-    /// Links and counterweight.
+    /// Links and what balances them.
     pub structure: Structure,
     /// Folder for the files; created if it is missing.
     pub folder: PathBuf,

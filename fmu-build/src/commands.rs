@@ -22,7 +22,7 @@ pub fn execute(arguments: &Arguments) -> Result<()> {
     match &arguments.command {
         None => pick_up::execute(out),
         Some(Command::Build(vehicle)) => {
-            let built = build(Structure::new(vehicle.links, vehicle.counterweight)?, out)?;
+            let built = build(vehicle.structure()?, out)?;
             wrote(&[built.controller, built.plant, built.ssp]);
             Ok(())
         }
