@@ -19,17 +19,21 @@ mod export;
 pub mod hash;
 pub mod identity;
 pub mod instance;
+mod location;
 pub mod logger;
 pub mod model;
+pub mod naming;
 pub mod panics;
+pub mod start_file;
 pub mod state;
 pub mod states;
 
 pub use capabilities::Capabilities;
 pub use error::Error;
-pub use identity::Guid;
+pub use identity::{Guid, Identity};
 pub use instance::Instance;
 pub use model::{CommunicationStep, Model};
+pub use naming::Naming;
 
 #[cfg(test)]
 mod toy;

@@ -195,6 +195,13 @@ impl<D> Table<D> {
         self.variables.iter().find(|variable| variable.name == name)
     }
 
+    /// Gives variables other names.
+    pub fn rename(&mut self, name: impl Fn(&str) -> String) {
+        for variable in &mut self.variables {
+            variable.name = name(&variable.name);
+        }
+    }
+
     /// Says how variables, named without indices, change with time.
     pub fn differentiate(&mut self, derivatives: &[(&str, Derivative<D>)]) {
         for variable in &mut self.variables {

@@ -6,6 +6,7 @@ use uam::Structure;
 
 use crate::compile::compile;
 use crate::description::model_description;
+use crate::design::Design;
 use crate::error::Result;
 use crate::package::fmu;
 use crate::platform::Platform;
@@ -18,10 +19,17 @@ const SSP_NAME: &str = "uam.ssp";
 /// What to build, and where to put it.
 #[derive(Debug, Clone)]
 pub struct BuildOptions {
-    /// Links and what balances them.
-    pub structure: Structure,
+    /// The pair.
+    pub design: Design,
     /// Folder for the files; created if it is missing.
     pub folder: PathBuf,
+}
+
+impl BuildOptions {
+    /// To build this, there.
+    pub fn new(design: impl Into<Design>, folder: impl Into<PathBuf>) -> Self {
+        Self { design: design.into(), folder: folder.into() }
+    }
 }
 
 /// The finished files.
@@ -40,11 +48,12 @@ pub struct Built {
 /// `progress` is told, line by line, what is being done.
 ///
 /// # Errors
-/// If the sources are not found, do not compile, or a file cannot be written.
+/// If the start values do not go together, the sources are not found, do not compile, or a file cannot be written.
 pub fn build(options: &BuildOptions, progress: &dyn Fn(&str)) -> Result<Built> {
+    options.design.check()?;
     let platform = Platform::of_this_machine()?;
-    let controller = Unit::controller(options.structure);
-    let plant = Unit::plant(options.structure);
+    let controller = Unit::controller(options.design.clone());
+    let plant = Unit::plant(options.design.clone());
     let packages = [controller.interface.identifier, plant.interface.identifier];
     let compiled = compile(&workspace::root()?, &packages, progress)?;
 

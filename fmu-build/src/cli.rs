@@ -7,12 +7,13 @@ use clap::{Args, Parser, Subcommand};
 use fmu_build::study::DISCRETIZATIONS;
 use uam::Structure;
 use uam::options::Choice;
-use uam::parameters::{Balance, Discretization, MAX_LINKS};
+use uam::parameters::{Discretization, MAX_LINKS};
 
 const EXAMPLES: &str = "\
 Examples:
   fmu-build                                 build, run the pick-up of thesis 4.3, write out/report.html
   fmu-build build --links 2                 FMUs of a vehicle with two links
+  fmu-build build --scenario mine.toml      FMUs that start with the numbers of your own vehicle
   fmu-build thesis                          every statement of the thesis beside what comes out
   fmu-build list                            the simulations that `simulate` knows
   fmu-build simulate 4.3a                   one simulation, with its own report
@@ -45,7 +46,7 @@ pub enum Command {
     /// Build the two FMUs and the SSP, and nothing else
     ///
     /// The structure of the vehicle decides which variables the FMUs have. All numbers (masses, lengths,
-    /// gains, path) are parameters of the FMUs and can be set by every host.
+    /// gains, path) are parameters of the FMUs and can be set by every host; --scenario gives them other start values.
     Build(BuildArguments),
     /// Run one simulation and write its csv and its report
     ///
@@ -83,27 +84,17 @@ pub struct BuildArguments {
     /// Revolute links of the arm, 1 to 6
     #[arg(long, value_name = "NUMBER", default_value_t = Structure::DEFAULT.links, value_parser = links, allow_hyphen_values = true)]
     pub links: usize,
-    /// A counterweight that slides along the UAV balances the arm
-    #[arg(long, conflicts_with = "balance_element")]
-    pub counterweight: bool,
-    /// A driven body that turns about the UAV's centre of mass balances the arm
+    /// A counterweight that slides along the UAV
     #[arg(long)]
-    pub balance_element: bool,
-}
-
-impl BuildArguments {
-    /// The structure asked for.
+    pub counterweight: bool,
+    /// Vehicle, gains, method and path of a simulation as start values, by its name in `list` or as a TOML file
     ///
-    /// # Errors
-    /// If there is no such structure.
-    pub fn structure(&self) -> uam::Result<Structure> {
-        let balance = match (self.counterweight, self.balance_element) {
-            (true, _) => Balance::Counterweight,
-            (false, true) => Balance::Element,
-            (false, false) => Balance::None,
-        };
-        Structure::new(self.links, balance)
-    }
+    /// The FMUs then run this simulation in any host that sets nothing. `show` prints a file to start from.
+    #[arg(long, value_name = "NAME|FILE", visible_alias = "parameters", conflicts_with_all = ["links", "counterweight"])]
+    pub scenario: Option<String>,
+    /// Names like joint_1_rate_command instead of joint[1].rate_command, for hosts that make buses of the latter
+    #[arg(long)]
+    pub flat: bool,
 }
 
 /// Which simulation, and how.
@@ -150,7 +141,7 @@ pub struct ExportArguments {
 
 fn links(text: &str) -> Result<usize, String> {
     let number: usize = text.parse().map_err(|_| format!("an arm has 1 to {MAX_LINKS} links"))?;
-    Structure::new(number, Balance::None).map(|structure| structure.links).map_err(|error| error.to_string())
+    Structure::new(number, false).map(|structure| structure.links).map_err(|error| error.to_string())
 }
 
 fn seconds(text: &str) -> Result<f64, String> {
@@ -183,7 +174,6 @@ mod tests {
         for number in ["0", "7", "-1", "two", "2.5"] {
             assert!(refusal(&format!("fmu-build build --links {number}")).contains("1 to 6"));
         }
-        assert!(refusal("fmu-build build --counterweight --balance-element").contains("cannot be used with"));
         assert!(refusal("fmu-build simulate 4.3a --discretization rk4").contains("euler, exact"));
         assert!(refusal("fmu-build simulate 4.3a --step soon").contains("for instance 0.001"));
     }

@@ -4,12 +4,13 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 use fmu_build::run::Run;
-use fmu_build::{BuildOptions, Built, workspace};
+use fmu_build::{BuildOptions, Built, Design, workspace};
 use indicatif::{ProgressBar, ProgressStyle};
 use uam::Structure;
+use uam::fmi2::Naming;
 use uam::scenarios::{self, Extent, Scenario};
 
-use crate::cli::{Arguments, Command};
+use crate::cli::{Arguments, BuildArguments, Command};
 
 mod export;
 mod pick_up;
@@ -22,7 +23,7 @@ pub fn execute(arguments: &Arguments) -> Result<()> {
     match &arguments.command {
         None => pick_up::execute(out),
         Some(Command::Build(vehicle)) => {
-            let built = build(vehicle.structure()?, out)?;
+            let built = build(design(vehicle)?, out)?;
             wrote(&[built.controller, built.plant, built.ssp]);
             Ok(())
         }
@@ -59,14 +60,24 @@ fn scenario(name_or_file: &str) -> Result<Scenario> {
     Scenario::read(&text).with_context(|| name_or_file.to_owned())
 }
 
-/// Builds the FMUs of a structure into a folder.
-fn build(structure: Structure, folder: &Path) -> Result<Built> {
+/// The pair of units that is asked for.
+fn design(arguments: &BuildArguments) -> Result<Design> {
+    let naming = if arguments.flat { Naming::Flat } else { Naming::Structured };
+    let design = match &arguments.scenario {
+        Some(name_or_file) => Design::from(scenario(name_or_file)?),
+        None => Design::from(Structure::new(arguments.links, arguments.counterweight)?),
+    };
+    Ok(Design { naming, ..design })
+}
+
+/// Builds FMUs into a folder.
+fn build(design: impl Into<Design>, folder: &Path) -> Result<Built> {
     let spinner = ProgressBar::new_spinner();
     spinner.enable_steady_tick(std::time::Duration::from_millis(120));
-    let options = BuildOptions { structure, folder: folder.to_owned() };
+    let options = BuildOptions::new(design, folder);
     let built = fmu_build::build(&options, &|line| spinner.set_message(line.to_owned()));
     spinner.finish_and_clear();
-    built.with_context(|| format!("cannot build the FMUs for {structure}"))
+    built.with_context(|| format!("cannot build the FMUs for {}", options.design.structure))
 }
 
 /// Where the FMUs of a structure go: all have the same file names, so other structures than the default get a

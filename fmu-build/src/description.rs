@@ -28,7 +28,7 @@ pub fn model_description(interface: &Interface) -> Result<String> {
             ("copyright", metadata::COPYRIGHT),
             ("license", metadata::LICENSE),
             ("generationTool", metadata::GENERATION_TOOL),
-            ("variableNamingConvention", "structured"),
+            ("variableNamingConvention", interface.naming.name()),
         ];
         xml::tall_element(xml, "fmiModelDescription", attributes).write_inner_content(|xml| {
             let identifier = [("modelIdentifier", interface.identifier)];
@@ -39,8 +39,8 @@ pub fn model_description(interface: &Interface) -> Result<String> {
             write_log_categories(xml)?;
             xml.create_element("DefaultExperiment")
                 .with_attribute(("startTime", number(metadata::START_TIME)))
-                .with_attribute(("stopTime", number(metadata::STOP_TIME)))
-                .with_attribute(("stepSize", number(metadata::STEP_SIZE)))
+                .with_attribute(("stopTime", number(interface.experiment.stop_time)))
+                .with_attribute(("stepSize", number(interface.experiment.step_size)))
                 .write_empty()?;
             xml.create_element("ModelVariables").write_inner_content(|xml| {
                 interface

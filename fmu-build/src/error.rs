@@ -19,6 +19,9 @@ pub enum Error {
         /// Where the search upwards began.
         searched: Vec<PathBuf>,
     },
+    /// Start values with which no simulation can begin.
+    #[error(transparent)]
+    Parameters(#[from] uam::Error),
     /// A program that compiling needs cannot be started.
     #[error("`{program}` cannot be started: {reason}; install Rust, or name the program in the variable {variable}")]
     NoTool {

@@ -1,9 +1,12 @@
 //! What a unit shows to the world, as plain data: the one source of every file that describes it.
 
-use uam::fmi2::{Capabilities, Guid, Model};
+use uam::fmi2::{Capabilities, Model, Naming, start_file};
 use uam::options::Item;
 use uam::unit::Unit;
 use uam::variables::{self, Bounds, Causality, Kind, Variability};
+use uam::{Parameters, Structure};
+
+use crate::design::{Design, Experiment};
 
 /// A unit of a given structure.
 #[derive(Debug, Clone)]
@@ -14,6 +17,12 @@ pub struct Interface {
     pub description: &'static str,
     /// The structure in words.
     pub structure: String,
+    /// How the variables are called.
+    pub naming: Naming,
+    /// What importers propose to simulate.
+    pub experiment: Experiment,
+    /// What the library must find in the resources; nothing if it knows the unit by itself.
+    pub start_file: Option<String>,
     /// Identity: the host hands it back when it instantiates the unit.
     pub guid: String,
     /// What the unit can do.
@@ -79,11 +88,16 @@ pub struct Enumeration {
 }
 
 impl Interface {
-    /// The interface of `M` in this structure, with its own start values.
+    /// The interface of `M` in this design.
     #[must_use]
-    pub fn of<M: Model>(structure: M::Structure) -> Self {
-        let table = M::table(structure);
-        let mut data = M::start(structure);
+    pub fn of<M>(design: &Design) -> Self
+    where
+        M: Model<Structure = Structure>,
+        M::Data: AsMut<Parameters>,
+    {
+        let unit = design.unit::<M>();
+        let table = M::table(unit.structure);
+        let mut data = unit.start.clone();
         let integrals = table.integrals(&mut data);
         let integral_of = |derivative| integrals.iter().find(|(position, _)| *position == derivative);
         let is_parameter = |variable: &variables::Variable<M::Data>| variable.causality == Causality::Parameter;
@@ -92,7 +106,7 @@ impl Interface {
             .iter()
             .enumerate()
             .map(|(position, variable)| Variable {
-                name: variable.name.clone(),
+                name: unit.naming.of(&variable.name),
                 description: variable.description.clone(),
                 causality: variable.causality,
                 variability: variable.variability,
@@ -108,8 +122,11 @@ impl Interface {
         Self {
             identifier: M::IDENTIFIER,
             description: M::DESCRIPTION,
-            structure: structure.to_string(),
-            guid: Guid::of::<M>(structure).to_string(),
+            structure: unit.structure.to_string(),
+            naming: unit.naming,
+            experiment: design.experiment,
+            start_file: start_file::write(&unit),
+            guid: unit.guid().to_string(),
             capabilities: Capabilities::of(&table),
             variables,
         }
@@ -156,7 +173,7 @@ impl Variable {
 }
 
 impl Value {
-    pub(crate) fn read<D>(variable: &variables::Variable<D>, data: &mut D) -> Self {
+    fn read<D>(variable: &variables::Variable<D>, data: &mut D) -> Self {
         match variable.kind {
             Kind::Real { unit, bounds, at } => Self::Real { unit, bounds, start: *at(data, variable.index) },
             Kind::Boolean { at } => Self::Boolean { start: *at(data, variable.index) },

@@ -13,6 +13,7 @@ pub mod claims;
 pub mod compile;
 pub mod coupling;
 pub mod description;
+pub mod design;
 pub mod documentation;
 pub mod error;
 mod files;
@@ -32,4 +33,5 @@ pub mod workspace;
 mod xml;
 
 pub use build::{BuildOptions, Built, build, write_descriptions};
+pub use design::Design;
 pub use error::{Error, Result};

@@ -2,6 +2,8 @@
 
 use uam::scenarios;
 
+use crate::design::Experiment;
+
 /// Author and copyright holder.
 pub const AUTHOR: &str = "The uam authors";
 /// Copyright notice.
@@ -13,9 +15,8 @@ pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// What wrote the files.
 pub const GENERATION_TOOL: &str = concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION"));
 
-/// Beginning of the default experiment \[s\].
+/// Beginning of every experiment \[s\].
 pub const START_TIME: f64 = 0.0;
-/// End of the default experiment \[s\].
-pub const STOP_TIME: f64 = scenarios::PICK_UP_DURATION;
-/// Communication step of the default experiment \[s\].
-pub const STEP_SIZE: f64 = scenarios::THESIS_STEP;
+/// The experiment that belongs to the library's own start values.
+pub const EXPERIMENT: Experiment =
+    Experiment { stop_time: scenarios::PICK_UP_DURATION, step_size: scenarios::THESIS_STEP };

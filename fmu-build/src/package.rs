@@ -1,5 +1,7 @@
 //! An FMU: description, library, documentation, licences and picture in one archive.
 
+use uam::fmi2::start_file;
+
 use crate::archive::Archive;
 use crate::description::model_description;
 use crate::documentation;
@@ -24,5 +26,8 @@ pub fn fmu(unit: &Unit, platform: Platform, library: Vec<u8>) -> Result<Archive>
         archive.add(format!("documentation/licenses/{name}"), text);
     }
     archive.add("model.png", unit.icon);
+    if let Some(text) = &unit.interface.start_file {
+        archive.add(format!("resources/{}", start_file::NAME), text.as_str());
+    }
     Ok(archive)
 }

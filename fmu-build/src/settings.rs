@@ -4,8 +4,9 @@ use uam::fmi2::Model;
 use uam::variables::{Causality, Kind};
 use uam::{Parameters, Structure};
 
+use crate::design::Design;
 use crate::fmu::{Error, Instance, Selection, Value};
-use crate::interface::{self, Interface, Variable};
+use crate::interface::{Interface, Variable};
 
 /// Every parameter of the unit `M` with its value in `parameters`, in the order of the unit's table.
 #[must_use]
@@ -38,16 +39,13 @@ where
     M: Model<Structure = Structure>,
     M::Data: AsMut<Parameters>,
 {
-    let mut data = M::start(structure);
-    data.as_mut().clone_from(parameters);
-    let table = M::table(structure);
-    let starts = Interface::of::<M>(structure).variables.into_iter().zip(table.variables());
-    starts
-        .filter(|(variable, _)| variable.causality == Causality::Parameter)
-        .filter_map(|(variable, declared)| {
-            let value = interface::Value::read(declared, &mut data);
-            (!value.starts_like(&variable.value)).then_some(Variable { value, ..variable })
-        })
+    let known = Design::from(structure);
+    let own = Design { parameters: parameters.clone(), ..known.clone() };
+    let [known, own] = [known, own].map(|design| Interface::of::<M>(&design).variables);
+    own.into_iter()
+        .zip(known)
+        .filter(|(own, known)| own.causality == Causality::Parameter && !own.value.starts_like(&known.value))
+        .map(|(own, _)| own)
         .collect()
 }
 

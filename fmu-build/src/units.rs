@@ -1,10 +1,10 @@
 //! The two units of a pair, with all that goes into their files beside the libraries.
 
 use maud::Markup;
-use uam::Structure;
 use uam::interface::controller::ControllerUnit;
 use uam::interface::plant::PlantUnit;
 
+use crate::design::Design;
 use crate::documentation::guide;
 use crate::interface::Interface;
 
@@ -19,21 +19,21 @@ pub struct Unit {
 }
 
 impl Unit {
-    /// The controller of this structure.
+    /// The controller of a design, for instance of a structure with the library's own start values.
     #[must_use]
-    pub fn controller(structure: Structure) -> Self {
+    pub fn controller(design: impl Into<Design>) -> Self {
         Self {
-            interface: Interface::of::<ControllerUnit>(structure),
+            interface: Interface::of::<ControllerUnit>(&design.into()),
             icon: include_bytes!("../../modelDescription/uam_controller.png"),
             guide: guide::controller(),
         }
     }
 
-    /// The plant of this structure.
+    /// The plant of a design, for instance of a structure with the library's own start values.
     #[must_use]
-    pub fn plant(structure: Structure) -> Self {
+    pub fn plant(design: impl Into<Design>) -> Self {
         Self {
-            interface: Interface::of::<PlantUnit>(structure),
+            interface: Interface::of::<PlantUnit>(&design.into()),
             icon: include_bytes!("../../modelDescription/uam_plant.png"),
             guide: guide::plant(),
         }

@@ -16,7 +16,7 @@ use zip::ZipArchive;
 const LARGEST_LIBRARY: usize = 1 << 20;
 
 fn build_into(folder: &Path) -> Built {
-    let options = BuildOptions { structure: Structure::DEFAULT, folder: folder.to_owned() };
+    let options = BuildOptions::new(Structure::DEFAULT, folder);
     build(&options, &|_| ()).unwrap_or_else(|error| panic!("{error}"))
 }
 

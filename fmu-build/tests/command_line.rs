@@ -13,14 +13,17 @@ fn answer(arguments: &[&str]) -> (Option<i32>, String, String) {
 
 #[test]
 fn mistakes_are_named_with_what_is_allowed() {
-    let cases: [(&[&str], &str); 8] = [
-        (&["simulate", "4.3x"], "did you mean 4.3"),
-        (&["simulate", "hover"], "there is no scenario `hover`; there are "),
+    let cases: [(&[&str], &str); 11] = [
+        (&["simulate", "4.3x"], "did you mean `4.3"),
+        (&["simulate", "hover"], "there is no scenario `hover`"),
         (&["simulate", "4.3a", "--step", "-0.001"], "the communication step must be a number of seconds from"),
         (&["simulate", "4.3a", "--step", "nan"], "but is NaN"),
         (&["simulate", "4.3a", "--stop", "0"], "the stop time must be"),
         (&["build", "--links", "7"], "1 to 6 links, not 7"),
         (&["build", "--links", "x"], "1 to 6 links"),
+        (&["build", "--scenario", "4.3x"], "did you mean `4.3"),
+        (&["build", "--scenario", "none.toml"], "cannot read none.toml"),
+        (&["build", "--scenario", "4.3a", "--links", "2"], "cannot be used with"),
         (&["fly"], "unrecognized subcommand"),
     ];
     for (arguments, expected) in cases {

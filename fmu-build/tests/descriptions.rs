@@ -4,11 +4,13 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use fmu_build::Design;
 use fmu_build::description::model_description;
 use fmu_build::interface::{Interface, Value, Variable};
 use fmu_build::units::Unit;
 use roxmltree::{Document, Node};
 use uam::Structure;
+use uam::fmi2::Naming;
 use uam::variables::Causality;
 
 /// Runs `check` on every unit of every structure with its parsed model description.
@@ -165,10 +167,31 @@ fn no_output_depends_on_an_input_and_initial_unknowns_depend_on_parameters() {
 }
 
 #[test]
+fn flat_names_are_identifiers_and_unique() {
+    for structure in Structure::all() {
+        let flat = Design { naming: Naming::Flat, ..structure.into() };
+        for unit in [Unit::controller(flat.clone()), Unit::plant(flat)] {
+            let text = model_description(&unit.interface).unwrap();
+            let document = Document::parse(&text).unwrap();
+            assert_eq!(document.root_element().attribute("variableNamingConvention"), Some("flat"));
+            let variables = elements(child(document.root_element(), "ModelVariables"));
+            let names: BTreeSet<_> = variables.iter().map(|variable| attribute(*variable, "name")).collect();
+            assert_eq!(names.len(), variables.len(), "{structure}");
+            for name in names {
+                assert!(name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_'), "{name}");
+            }
+        }
+    }
+}
+
+#[test]
 fn every_structure_of_every_unit_has_its_own_identity() {
     let mut seen = BTreeSet::new();
     for structure in Structure::all() {
-        for unit in [Unit::controller(structure), Unit::plant(structure)] {
+        let flat = Design { naming: Naming::Flat, ..structure.into() };
+        let [structured, flat] =
+            [structure.into(), flat].map(|design| [Unit::controller(design.clone()), Unit::plant(design)]);
+        for unit in structured.into_iter().chain(flat) {
             assert!(seen.insert(unit.interface.guid.clone()), "{} {structure}", unit.interface.identifier);
         }
     }

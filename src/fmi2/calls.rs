@@ -15,7 +15,7 @@ use super::arguments;
 use super::c_types::{self as c, Boolean, Component as Handle, Status, ValueReference, status_kind};
 use super::component::{self, Component};
 use super::error::Error;
-use super::identity;
+use super::identity::Identity;
 use super::instance::{Instance, Scalar};
 use super::logger::{Category, Logger};
 use super::model::Model;
@@ -43,12 +43,14 @@ pub fn version() -> c::Text {
 }
 
 /// `fmi2Instantiate`: null, and a message if there are callbacks, unless the name is given, the type is
-/// co-simulation and the GUID is that of a structure of the model. An empty name does no harm: the
+/// co-simulation and the GUID is that of a unit of the model. Resources are needed only if its start values are
+/// not the library's own. An empty name does no harm: the
 /// model's identifier stands in for it.
 pub unsafe fn instantiate<M: Model>(
     name: c::Text,
     fmu_type: c::FmuType,
     guid: c::Text,
+    resources: c::Text,
     callbacks: *const c::CallbackFunctions,
     logging_on: Boolean,
 ) -> Handle {
@@ -56,11 +58,13 @@ pub unsafe fn instantiate<M: Model>(
     // SAFETY: promised by the caller.
     let (name, guid) = unsafe { (arguments::text("instanceName", name), arguments::text("fmuGUID", guid)) };
     // SAFETY: promised by the caller.
+    let resources = unsafe { arguments::text("fmuResourceLocation", resources) }.ok();
+    // SAFETY: promised by the caller.
     let callbacks = unsafe { arguments::copy("functions", callbacks) }.ok();
     let known_as = name.as_deref().ok().filter(|name| !name.is_empty()).unwrap_or(M::IDENTIFIER);
     let logger = Logger::new(callbacks.as_ref(), known_as, logging_on.holds());
 
-    let instance = panics::caught(|| new_instance::<M>(name.as_ref(), fmu_type, guid.as_ref()));
+    let instance = panics::caught(|| new_instance::<M>(name.as_ref(), fmu_type, guid.as_ref(), resources.as_deref()));
     match instance.map_err(Error::Panic).flatten() {
         Ok(instance) => {
             if known_as != name.as_deref().unwrap_or_default() {
@@ -80,6 +84,7 @@ fn new_instance<M: Model>(
     name: Result<&Cow<str>, &Error>,
     fmu_type: c::FmuType,
     guid: Result<&Cow<str>, &Error>,
+    resources: Option<&str>,
 ) -> Result<Instance<M>, Error> {
     name.map_err(Error::clone)?;
     if fmu_type != c::CO_SIMULATION {
@@ -89,8 +94,7 @@ fn new_instance<M: Model>(
             found: fmu_type.to_string(),
         });
     }
-    let structure = identity::structure_with::<M>(guid.map_err(Error::clone)?)?;
-    Ok(Instance::new(structure))
+    Ok(Instance::new(Identity::find(guid.map_err(Error::clone)?, resources)?))
 }
 
 /// `fmi2FreeInstance`: does nothing if the handle is null.

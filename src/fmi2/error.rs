@@ -126,7 +126,7 @@ pub enum Error {
     },
     /// A model description that belongs to another library.
     #[error(transparent)]
-    Identity(#[from] UnknownGuid),
+    Identity(#[from] Box<UnknownGuid>),
     /// A log category that neither the unit nor the standard knows.
     #[error(transparent)]
     Category(#[from] UnknownCategory),

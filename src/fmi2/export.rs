@@ -14,9 +14,9 @@ macro_rules! export_fmi2 {
                 fmi2GetTypesPlatform() -> Text = calls::types_platform();
                 fmi2GetVersion() -> Text = calls::version();
 
-                fmi2Instantiate(name: Text, fmu_type: FmuType, guid: Text, _resources: Text,
+                fmi2Instantiate(name: Text, fmu_type: FmuType, guid: Text, resources: Text,
                     callbacks: *const CallbackFunctions, _visible: Boolean, logging_on: Boolean) -> Component
-                    = calls::instantiate::<$model>(name, fmu_type, guid, callbacks, logging_on);
+                    = calls::instantiate::<$model>(name, fmu_type, guid, resources, callbacks, logging_on);
                 fmi2FreeInstance(c: Component) -> () = calls::free_instance::<$model>(c);
                 fmi2SetDebugLogging(c: Component, on: Boolean, count: Size, categories: *const Text) -> Status
                     = calls::set_debug_logging::<$model>(c, on, count, categories);

@@ -1,36 +1,99 @@
 //! The identity (GUID) of a unit: a name-based UUID of everything that host and library must agree on.
 //!
 //! Whoever writes a model description and whoever reads its GUID back compute it from the same table,
-//! so a model description can never be used with a library that numbers its variables differently.
+//! so a model description can never be used with a library that numbers its variables differently, or
+//! begins with other values. A library recognises its own structures by their GUIDs alone. Any other unit
+//! says in its [resources](super::start_file) what it is, and is believed if that gives its GUID.
 
 use std::fmt::{self, Write};
 
 use uuid::Uuid;
 
 use super::model::Model;
+use super::naming::Naming;
+use super::start_file::{self, StartFileError};
 use crate::unit::Unit;
-use crate::variables::{Bounds, Causality, Kind, Variable};
+use crate::variables::{Bounds, Causality, Kind, Table, Variable};
 
 /// The name space of all identities.
 const NAMESPACE: Uuid = Uuid::from_u128(0x9c1f_2d6e_57a4_4b0b_8d3a_60e2_f1c7_85b9);
 
-/// Identity of one structure of one unit, written with braces.
+/// What was chosen when a unit was built.
+#[derive(Debug, Clone)]
+pub struct Identity<M: Model> {
+    /// It decides which variables there are.
+    pub structure: M::Structure,
+    /// How the variables are called.
+    pub naming: Naming,
+    /// The values that the variables have before anybody sets one.
+    pub start: M::Data,
+}
+
+impl<M: Model> Identity<M> {
+    /// A structure with structured names and the library's own start values.
+    #[must_use]
+    pub fn of(structure: M::Structure) -> Self {
+        Self { structure, naming: Naming::Structured, start: M::start(structure) }
+    }
+
+    /// All units that the library knows by itself, the default first.
+    fn known() -> impl Iterator<Item = Self> {
+        Naming::ALL.into_iter().flat_map(|naming| M::structures().map(move |of| Self { naming, ..Self::of(of) }))
+    }
+
+    /// The unit with this GUID; the default one is tried first. `location` is what the host says of where
+    /// the resources are.
+    ///
+    /// # Errors
+    /// If there is none; the library then belongs to another model description.
+    pub fn find(guid: &str, location: Option<&str>) -> Result<Self, Box<UnknownGuid>> {
+        let wanted = Guid::parse(guid);
+        if let Some(known) = Self::known().find(|known| wanted == Some(known.guid())) {
+            return Ok(known);
+        }
+        let refused = |expected: Option<&Self>, reason: Option<StartFileError>| {
+            Box::new(UnknownGuid {
+                identifier: M::IDENTIFIER,
+                expected: expected.map_or(Guid(Uuid::nil()), Self::guid),
+                unit: expected.map_or_else(String::new, |unit| unit.structure.to_string()),
+                found: guid.to_owned(),
+                reason,
+            })
+        };
+        match start_file::find::<M>(location) {
+            Ok(unit) if wanted == Some(unit.guid()) => Ok(unit),
+            Ok(unit) => Err(refused(Some(&unit), None)),
+            Err(reason) => Err(refused(Self::known().next().as_ref(), Some(reason))),
+        }
+    }
+
+    /// The variables by the names they have in this unit.
+    #[must_use]
+    pub fn table(&self) -> Table<M::Data> {
+        let mut table = M::table(self.structure);
+        table.rename(|name| self.naming.of(name));
+        table
+    }
+
+    /// The GUID.
+    #[must_use]
+    pub fn guid(&self) -> Guid {
+        let naming = self.naming.name();
+        let mut text = format!("{} {} {} {naming}\n", M::IDENTIFIER, M::INTERFACE_VERSION, self.structure);
+        let mut start = self.start.clone();
+        for variable in self.table().variables() {
+            // Writing to a string cannot fail.
+            let _ = describe(&mut text, variable, &mut start);
+        }
+        Guid(Uuid::new_v5(&NAMESPACE, text.as_bytes()))
+    }
+}
+
+/// Identity of one unit, written with braces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Guid(Uuid);
 
 impl Guid {
-    /// The identity of a structure with its start values.
-    #[must_use]
-    pub fn of<M: Model>(structure: M::Structure) -> Self {
-        let mut start = M::start(structure);
-        let mut text = format!("{} {} {structure}\n", M::IDENTIFIER, M::INTERFACE_VERSION);
-        for variable in M::table(structure).variables() {
-            // Writing to a string cannot fail.
-            let _ = describe(&mut text, variable, &mut start);
-        }
-        Self(Uuid::new_v5(&NAMESPACE, text.as_bytes()))
-    }
-
     /// Reads a GUID with or without braces; `None` if the text is none.
     #[must_use]
     pub fn parse(text: &str) -> Option<Self> {
@@ -91,36 +154,35 @@ fn describe_bounds(text: &mut String, bounds: &Bounds) -> fmt::Result {
     write!(text, " {} {} {}", bits(bounds.min), bounds.min_excluded, bits(bounds.max))
 }
 
-/// A GUID that belongs to no structure of a library.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("the GUID must be {expected} ({structure}) or that of another structure of {identifier}, but is \"{found}\"")]
+/// A GUID that belongs to no unit of a library.
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct UnknownGuid {
     /// Model identifier of the library.
     pub identifier: &'static str,
-    /// GUID of the default structure.
+    /// GUID of what the resources describe, or of the default unit.
     pub expected: Guid,
-    /// The default structure in words.
-    pub structure: String,
+    /// The structure of that in words.
+    pub unit: String,
     /// What was given.
     pub found: String,
+    /// Why the resources describe nothing.
+    pub reason: Option<StartFileError>,
 }
 
-/// The structure with this GUID; the default one is tried first.
-///
-/// # Errors
-/// If there is none; the library then belongs to another model description.
-pub fn structure_with<M: Model>(guid: &str) -> Result<M::Structure, UnknownGuid> {
-    let wanted = Guid::parse(guid);
-    let found = M::structures().find(|structure| wanted == Some(Guid::of::<M>(*structure)));
-    found.ok_or_else(|| {
-        let default = M::structures().next();
-        UnknownGuid {
-            identifier: M::IDENTIFIER,
-            expected: default.map_or(Guid(Uuid::nil()), Guid::of::<M>),
-            structure: default.map_or_else(String::new, |structure| structure.to_string()),
-            found: guid.to_owned(),
+impl std::error::Error for UnknownGuid {}
+
+impl fmt::Display for UnknownGuid {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { identifier, expected, unit, found, reason } = self;
+        match reason {
+            None => write!(f, "the GUID must be {expected} for the start values in the resources, but is \"{found}\""),
+            Some(reason) => write!(
+                f,
+                "the GUID must be {expected} ({unit}) or that of another structure of {identifier}, but is \"{found}\", \
+                 and no other start values are there: {reason}"
+            ),
         }
-    })
+    }
 }
 
 #[cfg(test)]
@@ -139,28 +201,32 @@ mod tests {
         text
     }
 
+    fn structure_of(guid: &str) -> Result<Size, Box<UnknownGuid>> {
+        Identity::<Toy>::find(guid, None).map(|unit| unit.structure)
+    }
+
     #[test]
     fn structures_are_told_apart_and_found_again() {
-        let (small, large) = (Guid::of::<Toy>(Size::Small), Guid::of::<Toy>(Size::Large));
+        let (small, large) = (Identity::<Toy>::of(Size::Small).guid(), Identity::<Toy>::of(Size::Large).guid());
         assert_ne!(small, large);
-        assert_eq!(small, Guid::of::<Toy>(Size::Small));
-        assert_eq!(structure_with::<Toy>(&small.to_string()), Ok(Size::Small));
-        assert_eq!(structure_with::<Toy>(&large.to_string()), Ok(Size::Large));
+        assert_eq!(small, Identity::<Toy>::of(Size::Small).guid());
+        assert_eq!(structure_of(&small.to_string()), Ok(Size::Small));
+        assert_eq!(structure_of(&large.to_string()), Ok(Size::Large));
     }
 
     #[test]
     fn braces_are_written_and_not_needed() {
-        let text = Guid::of::<Toy>(Size::Small).to_string();
+        let text = Identity::<Toy>::of(Size::Small).guid().to_string();
         let bare = text.strip_prefix('{').unwrap().strip_suffix('}').unwrap();
-        assert_eq!(structure_with::<Toy>(bare), Ok(Size::Small));
-        assert_eq!(structure_with::<Toy>(&bare.to_uppercase()), Ok(Size::Small));
+        assert_eq!(structure_of(bare), Ok(Size::Small));
+        assert_eq!(structure_of(&bare.to_uppercase()), Ok(Size::Small));
     }
 
     #[test]
     fn a_wrong_guid_is_answered_with_the_right_one() {
-        let expected = Guid::of::<Toy>(Size::Small).to_string();
+        let expected = Identity::<Toy>::of(Size::Small).guid().to_string();
         for wrong in ["", "{8c4e810f-3df3-4a00-8276-176fa3c9f9e0}", "nonsense"] {
-            let message = structure_with::<Toy>(wrong).unwrap_err().to_string();
+            let message = structure_of(wrong).unwrap_err().to_string();
             assert!(message.contains(&expected) && message.contains(&format!("\"{wrong}\"")), "{message}");
         }
     }

@@ -1,6 +1,7 @@
 //! One instance of a model, as the standard sees it, in safe Rust.
 
 use super::error::Error;
+use super::identity::Identity;
 use super::model::{CommunicationStep, Model};
 use super::state::{Call, State};
 use crate::variables::{Causality, Kind, Table, Variability, Variable};
@@ -23,7 +24,7 @@ const GAP_PER_SECOND: f64 = 1e-12;
 /// Every method that returns an error leaves the instance as it was, except a failed
 /// [`Instance::do_step`].
 pub struct Instance<M: Model> {
-    structure: M::Structure,
+    unit: Identity<M>,
     table: Table<M::Data>,
     now: Situation<M>,
 }
@@ -43,23 +44,17 @@ struct Situation<M: Model> {
 }
 
 impl<M: Model> Situation<M> {
-    fn new(structure: M::Structure) -> Self {
-        Self {
-            state: State::Instantiated,
-            data: M::start(structure),
-            model: None,
-            start_time: 0.0,
-            stop_time: None,
-            time: 0.0,
-        }
+    fn new(start: M::Data) -> Self {
+        Self { state: State::Instantiated, data: start, model: None, start_time: 0.0, stop_time: None, time: 0.0 }
     }
 }
 
 impl<M: Model> Instance<M> {
     /// A new instance with start values.
     #[must_use]
-    pub fn new(structure: M::Structure) -> Self {
-        let mut instance = Self { structure, table: M::table(structure), now: Situation::new(structure) };
+    pub fn new(unit: Identity<M>) -> Self {
+        let (table, now) = (unit.table(), Situation::new(unit.start.clone()));
+        let mut instance = Self { unit, table, now };
         instance.go_to(0.0);
         instance
     }
@@ -143,7 +138,7 @@ impl<M: Model> Instance<M> {
         }
         // A copy, so that a failure leaves nothing half-written.
         let mut data = self.now.data.clone();
-        let model = M::initialize(self.structure, &mut data, self.now.start_time)
+        let model = M::initialize(self.unit.structure, &mut data, self.now.start_time)
             .map_err(|error| Error::Initialization(error.to_string()))?;
         self.now.data = data;
         self.now.model = Some(model);
@@ -213,7 +208,7 @@ impl<M: Model> Instance<M> {
 
     /// Makes the instance as new, in any state.
     pub fn reset(&mut self) {
-        self.now = Situation::new(self.structure);
+        self.now = Situation::new(self.unit.start.clone());
         self.go_to(0.0);
     }
 

@@ -81,7 +81,7 @@ pub mod vr {
     pub const COUNT: u32 = 11;
 }
 
-#[derive(Clone)]
+#[derive(Debug, Clone)]
 pub struct Toy {
     position: f64,
 }

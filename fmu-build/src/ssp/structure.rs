@@ -5,6 +5,7 @@ use std::io;
 use uam::variables::Causality;
 
 use super::{Component, Connection, common, connections, parameters};
+use crate::design::Experiment;
 use crate::error::Result;
 use crate::interface::{Value, Variable, units_of};
 use crate::metadata;
@@ -18,6 +19,7 @@ const OSP: &str = "http://opensimulationplatform.com/SSP/OSPAnnotations";
 /// The system structure.
 pub fn system_structure(components: &[Component<'_>; 2]) -> Result<String> {
     let connections: Vec<_> = connections(components).collect();
+    let experiment = components[0].interface.experiment;
     let units = units_of(components.iter().flat_map(|component| connectors(component, &connections)).map(|(_, v)| v));
     xml::document("SystemStructure.ssd", |xml| {
         let attributes = [
@@ -35,15 +37,20 @@ pub fn system_structure(components: &[Component<'_>; 2]) -> Result<String> {
             ("generationTool", metadata::GENERATION_TOOL),
         ];
         xml::tall_element(xml, "ssd:SystemStructureDescription", attributes).write_inner_content(|xml| {
-            write_system(xml, components, &connections)?;
+            write_system(xml, components, &connections, experiment)?;
             common::write_units(xml, "ssd:Units", &units)?;
-            write_default_experiment(xml)
+            write_default_experiment(xml, experiment)
         })?;
         Ok(())
     })
 }
 
-fn write_system(xml: &mut Xml, components: &[Component<'_>; 2], connections: &[Connection<'_>]) -> io::Result<()> {
+fn write_system(
+    xml: &mut Xml,
+    components: &[Component<'_>; 2],
+    connections: &[Connection<'_>],
+    experiment: Experiment,
+) -> io::Result<()> {
     xml.create_element("ssd:System")
         .with_attribute(("name", "uam"))
         .with_attribute(("description", "Aerial manipulator: inverse kinematics and plant"))
@@ -60,7 +67,7 @@ fn write_system(xml: &mut Xml, components: &[Component<'_>; 2], connections: &[C
                     xml.create_element("oms:SimulationInformation").write_inner_content(|xml| {
                         xml.create_element("oms:FixedStepMaster")
                             .with_attribute(("description", "oms-ma"))
-                            .with_attribute(("stepSize", number(metadata::STEP_SIZE)))
+                            .with_attribute(("stepSize", number(experiment.step_size)))
                             .with_attribute(("absoluteTolerance", "0.0001"))
                             .with_attribute(("relativeTolerance", "0.0001"))
                             .write_empty()?;
@@ -148,15 +155,15 @@ fn write_connection(xml: &mut Xml, connection: &Connection<'_>) -> io::Result<()
     Ok(())
 }
 
-fn write_default_experiment(xml: &mut Xml) -> io::Result<()> {
+fn write_default_experiment(xml: &mut Xml, experiment: Experiment) -> io::Result<()> {
     xml.create_element("ssd:DefaultExperiment")
         .with_attribute(("startTime", number(metadata::START_TIME)))
-        .with_attribute(("stopTime", number(metadata::STOP_TIME)))
+        .with_attribute(("stopTime", number(experiment.stop_time)))
         .write_inner_content(|xml| {
             write_annotation(xml, "com.opensimulationplatform", |xml| {
                 xml.create_element("osp:Algorithm").write_inner_content(|xml| {
                     xml.create_element("osp:FixedStepAlgorithm")
-                        .with_attribute(("baseStepSize", number(metadata::STEP_SIZE)))
+                        .with_attribute(("baseStepSize", number(experiment.step_size)))
                         .write_empty()?;
                     Ok(())
                 })?;

@@ -8,15 +8,14 @@ use std::sync::LazyLock;
 use fmu_build::coupling::Pair;
 use fmu_build::{BuildOptions, Built, build};
 use uam::Structure;
-use uam::parameters::Balance;
 
 static BUILT: LazyLock<Built> = LazyLock::new(|| built(Structure::DEFAULT));
-static TWO_LINKS: LazyLock<Built> = LazyLock::new(|| built(Structure::new(2, Balance::None).unwrap()));
+static TWO_LINKS: LazyLock<Built> = LazyLock::new(|| built(Structure::new(2, false).unwrap()));
 
 fn built(structure: Structure) -> Built {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(env!("CARGO_CRATE_NAME"));
     let folder = folder.join(structure.to_string().replace(' ', "-"));
-    build(&BuildOptions { structure, folder }, &|_| {}).unwrap()
+    build(&BuildOptions::new(structure, folder), &|_| {}).unwrap()
 }
 
 /// The two FMUs of a vehicle with two links, loaded.

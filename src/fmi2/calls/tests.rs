@@ -4,7 +4,7 @@ use std::cell::Cell;
 use std::ffi::{CStr, CString, c_char, c_int, c_uint, c_void};
 use std::ptr::{null, null_mut};
 
-use crate::fmi2::Guid;
+use crate::fmi2::Identity;
 use crate::fmi2::state::{Call, State};
 use crate::fmi2::toy::{Size, Toy, vr};
 use host::{ERROR, Host, OK, TRUE};

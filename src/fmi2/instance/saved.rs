@@ -12,7 +12,7 @@ use super::{Instance, Situation};
 use crate::bytes::{Memory, Tape};
 use crate::fmi2::error::Error;
 use crate::fmi2::hash::fnv1a;
-use crate::fmi2::identity::Guid;
+use crate::fmi2::identity::Identity;
 use crate::fmi2::model::Model;
 use crate::fmi2::state::{Call, State};
 use crate::variables::{Causality, Kind, Table};
@@ -36,7 +36,7 @@ impl<M: Model> Instance<M> {
     /// If the state machine does not allow it.
     pub fn save(&self) -> Result<Saved<M>, Error> {
         self.permit(Call::GetFMUstate)?;
-        Ok(Saved { structure: self.structure, then: self.now.clone() })
+        Ok(Saved { structure: self.unit.structure, then: self.now.clone() })
     }
 
     /// Goes on from a saved state, also that of another instance.
@@ -45,9 +45,9 @@ impl<M: Model> Instance<M> {
     /// If it belongs to an instance of another structure.
     pub fn restore(&mut self, saved: &Saved<M>) -> Result<(), Error> {
         self.permit(Call::SetFMUstate)?;
-        if saved.structure != self.structure {
+        if saved.structure != self.unit.structure {
             return Err(Error::OtherStructure {
-                expected: self.structure.to_string(),
+                expected: self.unit.structure.to_string(),
                 found: saved.structure.to_string(),
             });
         }
@@ -61,14 +61,14 @@ impl<M: Model> Instance<M> {
     /// If they are not what [`Saved::to_bytes`] gave for this unit and structure.
     pub fn read_saved(&self, bytes: &[u8]) -> Result<Saved<M>, Error> {
         self.permit(Call::DeSerializeFMUstate)?;
-        let content = unwrap(&title::<M>(self.structure), bytes)?;
+        let content = unwrap(&title::<M>(self.unit.structure), bytes)?;
         let then = self.read_situation(content).map_err(|reason| Error::Content { reason })?;
-        Ok(Saved { structure: self.structure, then })
+        Ok(Saved { structure: self.unit.structure, then })
     }
 
     fn read_situation(&self, content: &[u8]) -> Result<Situation<M>, String> {
         let mut tape = Tape::playing(content);
-        let mut then = Situation::new(self.structure);
+        let mut then = Situation::new(self.unit.start.clone());
         let mut has_model = false;
         then.pass(&self.table, &mut has_model, &mut tape);
         tape.check().map_err(|error| error.to_string())?;
@@ -88,7 +88,7 @@ impl<M: Model> Instance<M> {
             }
         }
         if has_model {
-            let model = M::restore(self.structure, data, &mut tape).map_err(|error| error.to_string())?;
+            let model = M::restore(self.unit.structure, data, &mut tape).map_err(|error| error.to_string())?;
             then.model = Some(model);
         }
         if tape.is_at_its_end() { Ok(then) } else { Err("there are too many bytes".to_owned()) }
@@ -143,9 +143,9 @@ impl<M: Model> Situation<M> {
     }
 }
 
-/// What every state of this structure begins with.
+/// What every state of this structure begins with, whatever start values the unit has: a state has them all.
 fn title<M: Model>(structure: M::Structure) -> String {
-    let (name, version, guid) = (M::IDENTIFIER, env!("CARGO_PKG_VERSION"), Guid::of::<M>(structure));
+    let (name, version, guid) = (M::IDENTIFIER, env!("CARGO_PKG_VERSION"), Identity::<M>::of(structure).guid());
     format!("FMI 2.0 state, format {FORMAT}, {name} {version} {guid}\n")
 }
 

@@ -7,7 +7,7 @@ use crate::fmi2::toy::{Size, Toy, vr};
 type Result = std::result::Result<(), Error>;
 
 fn new() -> Instance<Toy> {
-    Instance::new(Size::Small)
+    Instance::new(Identity::of(Size::Small))
 }
 
 fn running() -> Instance<Toy> {

@@ -29,7 +29,7 @@ pub fn built(structure: Structure) -> Built {
     let mut built = BUILT.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
     let files = built.get_or_insert_default().entry(structure).or_insert_with(|| {
         let folder = target_folder().join("fmi-host").join(structure.to_string().replace(' ', "-"));
-        build(&BuildOptions { structure, folder }, &|_| ()).unwrap_or_else(|error| panic!("{error}"))
+        build(&BuildOptions::new(structure, folder), &|_| ()).unwrap_or_else(|error| panic!("{error}"))
     });
     files.clone()
 }

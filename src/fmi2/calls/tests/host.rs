@@ -58,7 +58,7 @@ extern "C" fn record(
 }
 
 pub fn guid() -> CString {
-    CString::new(Guid::of::<Toy>(Size::Small).to_string()).unwrap()
+    CString::new(Identity::<Toy>::of(Size::Small).guid().to_string()).unwrap()
 }
 
 pub struct Host {

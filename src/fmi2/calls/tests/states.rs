@@ -148,7 +148,7 @@ fn what_is_no_state_is_refused() {
 fn states_of_other_structures_and_units_are_refused() {
     let host = Host::new();
     let toy = host.running();
-    let large = host.instantiate_with(&CString::new(Guid::of::<Toy>(Size::Large).to_string()).unwrap());
+    let large = host.instantiate_with(&CString::new(Identity::<Toy>::of(Size::Large).guid().to_string()).unwrap());
     let state = saved(&large);
     assert_eq!(set(&toy, state), ERROR);
     let expected = "FMUstate belongs to an instance with large toy, but this one has small toy";

@@ -1,0 +1,74 @@
+//! What is chosen when a pair of units is built.
+
+use uam::fmi2::{Identity, Model, Naming};
+use uam::interface::controller::ControllerUnit;
+use uam::interface::plant::PlantUnit;
+use uam::scenarios::{self, Scenario};
+use uam::{Parameters, Structure};
+
+use crate::metadata;
+
+/// Everything in which one pair of units differs from another.
+#[derive(Debug, Clone)]
+pub struct Design {
+    /// The vehicle; it decides which variables the units have.
+    pub structure: Structure,
+    /// How the variables are called.
+    pub naming: Naming,
+    /// Start values of the parameters of both units.
+    pub parameters: Parameters,
+    /// What importers propose to simulate.
+    pub experiment: Experiment,
+}
+
+/// When a simulation ends, and how long its steps are.
+#[derive(Debug, Clone, Copy)]
+pub struct Experiment {
+    /// End, counted from 0 \[s\].
+    pub stop_time: f64,
+    /// Communication step \[s\].
+    pub step_size: f64,
+}
+
+impl From<Structure> for Design {
+    fn from(structure: Structure) -> Self {
+        Self {
+            structure,
+            naming: Naming::Structured,
+            parameters: scenarios::default_parameters(structure),
+            experiment: metadata::EXPERIMENT,
+        }
+    }
+}
+
+impl From<Scenario> for Design {
+    fn from(scenario: Scenario) -> Self {
+        let Scenario { structure, parameters, duration, step, .. } = scenario;
+        let experiment = Experiment { stop_time: duration, step_size: step };
+        Self { structure, naming: Naming::Structured, parameters, experiment }
+    }
+}
+
+impl Design {
+    /// Whether a simulation can begin with these start values.
+    ///
+    /// # Errors
+    /// If one is out of its bounds, or they do not go together.
+    pub fn check(&self) -> uam::Result<()> {
+        PlantUnit::initialize(self.structure, &mut self.unit::<PlantUnit>().start, 0.0)?;
+        ControllerUnit::initialize(self.structure, &mut self.unit::<ControllerUnit>().start, 0.0)?;
+        Ok(())
+    }
+
+    /// One of the two units.
+    #[must_use]
+    pub fn unit<M>(&self) -> Identity<M>
+    where
+        M: Model<Structure = Structure>,
+        M::Data: AsMut<Parameters>,
+    {
+        let mut unit = Identity::<M> { naming: self.naming, ..Identity::of(self.structure) };
+        unit.start.as_mut().clone_from(&self.parameters);
+        unit
+    }
+}
