@@ -9,7 +9,7 @@ use std::cell::RefCell;
 use divan::Bencher;
 use nalgebra::SVector;
 use uam::dynamics::{Dynamics, Loads};
-use uam::parameters::BaseModel;
+use uam::parameters::{Balance, BaseModel};
 use uam::scenarios::default_parameters;
 use uam::{Parameters, Structure};
 
@@ -43,7 +43,7 @@ fn step(bencher: Bencher<'_, '_>, number: usize) {
 /// The same with a counterweight, by number of links.
 #[divan::bench(args = [1, 3, 6], sample_size = STEPS)]
 fn step_with_counterweight(bencher: Bencher<'_, '_>, number: usize) {
-    run(bencher, Structure { counterweight: true, ..links(number) }, |_| {});
+    run(bencher, Structure { balance: Balance::Counterweight, ..links(number) }, |_| {});
 }
 
 /// The same with the rigid gains, which ask for several internal steps.

@@ -48,8 +48,8 @@ pub struct Inputs {
     pub acceleration: Vec2,
 }
 
-/// Commands for the coming interval and what the prediction says. Joints stand first, the
-/// counterweight after the last joint of the structure.
+/// Commands for the coming interval and what the prediction says. Joints stand first,
+/// what balances the arm after the last joint of the structure.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outputs {
     /// Rates \[rad/s, m/s\].
@@ -66,7 +66,7 @@ pub struct Outputs {
     pub predicted_velocity: Vector3<f64>,
     /// Predicted position of the end effector now \[m\].
     pub predicted_end_effector: Vec2,
-    /// Predicted positions of joints and counterweight now \[rad, m\].
+    /// Predicted positions of the coordinates now \[rad, m\].
     pub predicted_position: [f64; MAX_COORDINATES],
     /// How the rates came about.
     pub status: Status,
@@ -87,7 +87,7 @@ pub struct Rates {
     pub predicted_end_effector: Vec2,
     /// Predicted acceleration of the UAV \[m/s2, m/s2, rad/s2\].
     pub predicted_velocity: Vector3<f64>,
-    /// Rates of joints and counterweight in the finished interval \[rad/s, m/s\].
+    /// Rates of the coordinates in the finished interval \[rad/s, m/s\].
     pub predicted_position: [f64; MAX_COORDINATES],
 }
 

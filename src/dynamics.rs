@@ -30,7 +30,7 @@ use crate::memory;
 use crate::momentum::Twist;
 use crate::parameters::{BaseModel, MomentModel, Parameters, Structure, Support};
 use crate::planar::{Turn, Vec2};
-use crate::vehicle::Vehicle;
+use crate::vehicle::{Balancer, Vehicle};
 
 /// Shortest sample time of an autopilot that is not continuous \[s\].
 pub const SHORTEST_SAMPLE: f64 = 1e-6;
@@ -49,7 +49,7 @@ pub struct State<const N: usize> {
     pub momentum: Vector3<f64>,
     /// Integrals of altitude error \[m s\] and roll error \[rad s\].
     pub integrals: Vec2,
-    /// Joint angles and position of the counterweight \[rad, m\].
+    /// Joint angles and position of what balances the arm \[rad, m\].
     pub position: SVector<f64, N>,
     /// Velocity of the UAV \[m/s, m/s, rad/s\].
     pub velocity: Vector3<f64>,
@@ -201,8 +201,8 @@ pub struct Impulse<const N: usize> {
     pub torque: f64,
     /// Of the support force on the payload \[N s\].
     pub support: f64,
-    /// For each joint, of the moments of weight and outer loads outboard of it, about it, less joint velocity
-    /// x outboard momentum \[N m s\].
+    /// For each coordinate, of what changes the momentum of what it moves, its motor excepted: moments about
+    /// the joint, or forces along the slide, of weight, outer loads and its own motion \[N m s, N s\].
     pub outboard: SVector<f64, N>,
     /// Of the moments of weight and outer loads on what the UAV carries, about the UAV's centre of mass, less
     /// its velocity x momentum, as the moment model has it \[N m s\]; computed unless `outboard` is.
@@ -322,8 +322,10 @@ impl<const N: usize> Dynamics<N> {
     /// At rest at the origin, with the coordinates at their start and without payload.
     #[must_use]
     pub fn start(&self, parameters: &Parameters) -> Situation<N> {
-        let position = SVector::from_fn(|i, _| {
-            if i < self.vehicle.links { parameters.joints[i].start } else { parameters.counterweight.start }
+        let position = SVector::from_fn(|i, _| match self.vehicle.balancer {
+            Some(Balancer::Counterweight(_)) if i == N - 1 => parameters.counterweight.start,
+            Some(Balancer::Element(_)) if i == N - 1 => parameters.balance_element.start,
+            _ => parameters.joints[i].start,
         });
         self.situation(State::at_rest(position))
     }

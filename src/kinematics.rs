@@ -7,12 +7,12 @@ use nalgebra::SVector;
 
 use crate::memory;
 use crate::planar::{Turn, Vec2, vec2};
-use crate::vehicle::Vehicle;
+use crate::vehicle::{Balancer, Vehicle};
 
 /// A configuration of the arm in trigonometric form: cheap to advance by small angles.
 #[derive(Debug, Clone, Copy)]
 pub struct Configuration<const N: usize> {
-    /// Turn of each link relative to the UAV.
+    /// Turn of each link, and of a balance element, relative to the UAV.
     turn: [Turn; N],
     /// Position of the counterweight along the UAV's x axis \[m\].
     slide: f64,
@@ -40,8 +40,10 @@ impl<const N: usize> Configuration<N> {
             angle += dq[i] * vehicle.revolute[i];
             moved.turn[i] = self.turn[i].then(turn_by(angle));
         }
-        if vehicle.counterweight.is_some() {
-            moved.slide += dq[N - 1];
+        match vehicle.balancer {
+            None => {}
+            Some(Balancer::Counterweight(_)) => moved.slide += dq[N - 1],
+            Some(Balancer::Element(_)) => moved.turn[N - 1] = self.turn[N - 1].then(turn_by(dq[N - 1])),
         }
         moved
     }
@@ -50,7 +52,7 @@ impl<const N: usize> Configuration<N> {
 /// Where everything is, in the UAV frame \[m\].
 #[derive(Debug, Clone, Copy)]
 pub struct Posture<const N: usize> {
-    /// Directions of the links.
+    /// Directions of the links and of a balance element.
     pub direction: [Vec2; N],
     /// Joints of the links.
     pub joint: [Vec2; N],
@@ -73,9 +75,10 @@ impl<const N: usize> Posture<N> {
             joint: [Vec2::zeros(); N],
             end_effector: vehicle.mount,
             payload: vehicle.mount,
-            counterweight: vehicle
-                .counterweight
-                .map_or_else(Vec2::zeros, |slider| vec2(configuration.slide, slider.height)),
+            counterweight: match vehicle.balancer {
+                Some(Balancer::Counterweight(slider)) => vec2(configuration.slide, slider.height),
+                Some(Balancer::Element(_)) | None => Vec2::zeros(),
+            },
         };
         for i in 0..N {
             posture.direction[i] = configuration.turn[i].down();

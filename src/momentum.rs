@@ -3,6 +3,7 @@
 //! h = (p, K) = H_b v_b + H_m q_dot, with p the momentum and K the angular momentum about the UAV's
 //! centre of mass, both of absolute velocities (thesis 2.5). In the axes of the UAV frame, H_b and H_m
 //! depend on the coordinates q only. The sums run from the tip inwards, each mass is added once.
+//! What balances the arm hangs on the UAV itself.
 
 use std::ops::{Add, Mul, Sub};
 
@@ -11,7 +12,7 @@ use nalgebra::SVector;
 use crate::kinematics::Posture;
 use crate::memory;
 use crate::planar::{Vec2, cross, perp, vec2};
-use crate::vehicle::Vehicle;
+use crate::vehicle::{Balancer, Body, Vehicle};
 
 /// A planar motion or load of the base: a vector in the plane and a component out of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -62,7 +63,7 @@ pub struct MomentumMatrix<const N: usize> {
     pub first: Vec2,
     /// Columns of H_m.
     pub columns: [Twist; N],
-    /// First moment of what lies outboard of each joint, about that joint \[kg m\].
+    /// First moment of what lies outboard of each joint, a balance element's included, about it \[kg m\].
     pub outboard_first: [Vec2; N],
     /// Moment of inertia of the whole system about its centre of mass, inverse \[1/(kg m2)\].
     compliance: f64,
@@ -92,12 +93,23 @@ impl<const N: usize> MomentumMatrix<N> {
         inertia += vehicle.uav_inertia + vehicle.mount.dot(&(2.0 * first + mass * vehicle.mount));
         first += vehicle.mount * mass;
         mass += vehicle.uav_mass;
-        if let Some(slider) = vehicle.counterweight {
-            let place = posture.counterweight;
-            inertia += slider.inertia + slider.mass * place.norm_squared();
-            first += place * slider.mass;
-            mass += slider.mass;
-            columns[N - 1] = Twist { linear: vec2(slider.mass, 0.0), angular: -slider.mass * place.y };
+        match vehicle.balancer {
+            None => {}
+            Some(Balancer::Counterweight(slider)) => {
+                let place = posture.counterweight;
+                inertia += slider.inertia + slider.mass * place.norm_squared();
+                first += place * slider.mass;
+                mass += slider.mass;
+                columns[N - 1] = Twist { linear: vec2(slider.mass, 0.0), angular: -slider.mass * place.y };
+            }
+            Some(Balancer::Element(body)) => {
+                let own = posture.direction[N - 1] * body.first;
+                inertia += body.second;
+                first += own;
+                mass += body.mass;
+                outboard_first[N - 1] = own;
+                columns[N - 1] = Twist { linear: perp(own), angular: body.second };
+            }
         }
         let compliance = mass / (inertia * mass - first.norm_squared());
         Self { mass, first, columns, outboard_first, compliance, inertia }
@@ -127,16 +139,16 @@ impl<const N: usize> MomentumMatrix<N> {
     }
 }
 
-/// Motion and momentum of what lies outboard of a joint; axes of the UAV frame, absolute velocities.
+/// What a coordinate moves: all that lies outboard of a joint, or what balances the arm.
 #[derive(Debug, Clone, Copy)]
 pub struct Outboard {
-    /// Velocity of the joint \[m/s\].
-    pub velocity: Vec2,
-    /// Momentum \[N s\] and angular momentum about the joint \[N m s\].
-    pub momentum: Twist,
+    /// Its angular momentum about the joint \[N m s\], or momentum along the slide \[N s\].
+    pub momentum: f64,
+    /// How fast that changes, without any load, because joint or slide move \[N m, N\].
+    pub drift: f64,
 }
 
-/// Momentum outboard of each joint, with the base in motion `v` and the rates `rate`.
+/// What each coordinate moves, with the base in motion `v` and the rates `rate`; absolute velocities.
 #[must_use]
 pub fn outboard<const N: usize>(
     vehicle: &Vehicle<N>,
@@ -146,29 +158,45 @@ pub fn outboard<const N: usize>(
     rate: &SVector<f64, N>,
 ) -> [Outboard; N] {
     let bodies = vehicle.bodies(held);
-    let mut outboard = [Outboard { velocity: Vec2::zeros(), momentum: Twist::ZERO }; N];
+    let mut joint_velocity = [Vec2::zeros(); N];
+    let mut own = [Twist::ZERO; N];
     let mut omega = v.angular;
     let mut velocity = v.linear + perp(vehicle.mount) * v.angular;
     for i in 0..N {
         omega += rate[i] * vehicle.revolute[i];
-        let (body, direction) = (&bodies[i], posture.direction[i]);
-        outboard[i] = Outboard {
-            velocity,
-            momentum: Twist {
-                linear: velocity * body.mass + perp(direction) * (omega * body.first),
-                angular: cross(direction, velocity) * body.first + omega * body.second,
-            },
-        };
-        velocity += perp(direction) * (omega * vehicle.length[i]);
+        joint_velocity[i] = velocity;
+        own[i] = turning(&bodies[i], posture.direction[i], velocity, omega);
+        velocity += perp(posture.direction[i]) * (omega * vehicle.length[i]);
     }
-    for i in (1..N).rev() {
-        let outer = outboard[i].momentum;
-        let lever = posture.direction[i - 1] * vehicle.length[i - 1];
-        let inner = &mut outboard[i - 1].momentum;
-        inner.linear += outer.linear;
-        inner.angular += outer.angular + cross(lever, outer.linear);
+    let mut outboard = [Outboard { momentum: 0.0, drift: 0.0 }; N];
+    let mut outer = Twist::ZERO;
+    for i in (0..N).rev() {
+        let lever = posture.direction[i] * vehicle.length[i];
+        outer.angular += own[i].angular + cross(lever, outer.linear);
+        outer.linear += own[i].linear;
+        outboard[i] = Outboard { momentum: outer.angular, drift: -cross(joint_velocity[i], outer.linear) };
+    }
+    match vehicle.balancer {
+        None => {}
+        Some(Balancer::Counterweight(slider)) => {
+            let velocity = v.linear + perp(posture.counterweight) * v.angular + vec2(rate[N - 1], 0.0);
+            outboard[N - 1] =
+                Outboard { momentum: slider.mass * velocity.x, drift: slider.mass * v.angular * velocity.y };
+        }
+        Some(Balancer::Element(body)) => {
+            let own = turning(&body, posture.direction[N - 1], v.linear, v.angular + rate[N - 1]);
+            outboard[N - 1] = Outboard { momentum: own.angular, drift: -cross(v.linear, own.linear) };
+        }
     }
     outboard
+}
+
+/// Momentum, and angular momentum about its joint, of a body that turns by `omega` while its joint moves.
+fn turning(body: &Body, direction: Vec2, joint_velocity: Vec2, omega: f64) -> Twist {
+    Twist {
+        linear: joint_velocity * body.mass + perp(direction) * (omega * body.first),
+        angular: cross(direction, joint_velocity) * body.first + omega * body.second,
+    }
 }
 
 /// Force and moment about the UAV's centre of mass that keep the masses on their way while the base does
@@ -199,12 +227,20 @@ pub fn inertial_load<const N: usize>(
             cross(posture.joint[i], force) + cross(direction, acceleration) * body.first + alpha * body.second;
         acceleration += spread * vehicle.length[i];
     }
-    if let Some(slider) = vehicle.counterweight {
-        let place = posture.counterweight;
-        let coriolis = vec2(0.0, 2.0 * roll_rate * rate[N - 1]);
-        let force = (vec2(rate_slope[N - 1], 0.0) + coriolis - place * (roll_rate * roll_rate)) * slider.mass;
-        load.linear += force;
-        load.angular += cross(place, force);
+    match vehicle.balancer {
+        None => {}
+        Some(Balancer::Counterweight(slider)) => {
+            let place = posture.counterweight;
+            let coriolis = vec2(0.0, 2.0 * roll_rate * rate[N - 1]);
+            let force = (vec2(rate_slope[N - 1], 0.0) + coriolis - place * (roll_rate * roll_rate)) * slider.mass;
+            load.linear += force;
+            load.angular += cross(place, force);
+        }
+        Some(Balancer::Element(body)) => {
+            let (direction, omega) = (posture.direction[N - 1], roll_rate + rate[N - 1]);
+            load.linear += (perp(direction) * rate_slope[N - 1] - direction * (omega * omega)) * body.first;
+            load.angular += rate_slope[N - 1] * body.second;
+        }
     }
     load
 }

@@ -15,29 +15,61 @@ pub use table::{declare_controller, declare_shared};
 
 /// Largest number of revolute links of an arm.
 pub const MAX_LINKS: usize = 6;
-/// Largest number of coordinates: the links and one counterweight.
+/// Largest number of coordinates: the links and what balances the arm.
 pub const MAX_COORDINATES: usize = MAX_LINKS + 1;
+
+/// What balances the arm besides the arm itself: one more coordinate, the last one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Balance {
+    /// Nothing.
+    None,
+    /// A counterweight that slides along the UAV's x axis (thesis 3.8).
+    Counterweight,
+    /// A body that turns about the UAV's centre of mass (thesis 3.4).
+    Element,
+}
+
+impl Balance {
+    /// Every kind.
+    pub const ALL: [Self; 3] = [Self::None, Self::Counterweight, Self::Element];
+
+    /// Its name in files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Counterweight => "counterweight",
+            Self::Element => "balance_element",
+        }
+    }
+
+    /// First part of the names of its variables, if it has any.
+    #[must_use]
+    pub fn prefix(self) -> Option<&'static str> {
+        (self != Self::None).then(|| self.name())
+    }
+}
 
 /// What is chosen when a unit is built: it fixes the list of variables.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Structure {
     /// Number of revolute links, 1 to [`MAX_LINKS`].
     pub links: usize,
-    /// Whether a counterweight slides along the UAV's x axis.
-    pub counterweight: bool,
+    /// What balances the arm.
+    pub balance: Balance,
 }
 
 impl Structure {
-    /// Three links, no counterweight: the vehicle of thesis 4.3.
-    pub const DEFAULT: Self = Self { links: 3, counterweight: false };
+    /// Three links and nothing to balance them: the vehicle of thesis 4.3.
+    pub const DEFAULT: Self = Self { links: 3, balance: Balance::None };
 
     /// Checks the number of links.
     ///
     /// # Errors
     /// If it is not 1 to [`MAX_LINKS`].
-    pub fn new(links: usize, counterweight: bool) -> Result<Self> {
+    pub fn new(links: usize, balance: Balance) -> Result<Self> {
         if (1..=MAX_LINKS).contains(&links) {
-            Ok(Self { links, counterweight })
+            Ok(Self { links, balance })
         } else {
             Err(Error::Structure { links, largest: MAX_LINKS })
         }
@@ -46,15 +78,15 @@ impl Structure {
     /// Every structure that can be built, the default first.
     pub fn all() -> impl Iterator<Item = Self> {
         let others = (1..=MAX_LINKS)
-            .flat_map(|links| [false, true].map(|counterweight| Self { links, counterweight }))
+            .flat_map(|links| Balance::ALL.map(|balance| Self { links, balance }))
             .filter(|structure| *structure != Self::DEFAULT);
         std::iter::once(Self::DEFAULT).chain(others)
     }
 
-    /// Number of coordinates: one per joint, and one for the counterweight.
+    /// Number of coordinates: one per joint, and one for what balances the arm.
     #[must_use]
     pub fn coordinates(&self) -> usize {
-        self.links + usize::from(self.counterweight)
+        self.links + usize::from(self.balance != Balance::None)
     }
 }
 
@@ -100,11 +132,15 @@ macro_rules! for_coordinates {
 impl fmt::Display for Structure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} link{}", self.links, if self.links == 1 { "" } else { "s" })?;
-        if self.counterweight { write!(f, " and counterweight") } else { Ok(()) }
+        match self.balance {
+            Balance::None => Ok(()),
+            Balance::Counterweight => write!(f, " and counterweight"),
+            Balance::Element => write!(f, " and balance element"),
+        }
     }
 }
 
-/// Mass properties of the multicopter without arm and counterweight.
+/// Mass properties of the multicopter alone.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Uav {
     /// Mass \[kg\].
@@ -154,6 +190,20 @@ pub struct Counterweight {
     /// Height of its centre of mass in the UAV frame \[m\].
     pub height: f64,
     /// Position along the UAV's x axis at the start \[m\].
+    pub start: f64,
+}
+
+/// The balance element: a body that turns about the UAV's centre of mass, for instance a disc, or a mass on
+/// an arm (thesis 3.4).
+#[derive(Debug, Clone, PartialEq)]
+pub struct BalanceElement {
+    /// Mass \[kg\].
+    pub mass: f64,
+    /// Distance of its centre of mass from its axis \[m\].
+    pub com: f64,
+    /// Moment of inertia about its centre of mass \[kg m2\].
+    pub inertia: f64,
+    /// Angle at the start \[rad\]; 0: its centre of mass hangs below the axis.
     pub start: f64,
 }
 
@@ -255,6 +305,8 @@ pub struct Parameters {
     pub joints: [Joint; MAX_LINKS],
     /// Counterweight; ignored if the structure has none.
     pub counterweight: Counterweight,
+    /// Balance element; ignored if the structure has none.
+    pub balance_element: BalanceElement,
     /// Hover control.
     pub autopilot: Autopilot,
     /// Payload.

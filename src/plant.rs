@@ -15,8 +15,8 @@ use crate::for_coordinates;
 use crate::parameters::{MAX_COORDINATES, Parameters, Structure};
 use crate::planar::Vec2;
 
-/// What comes from outside at a communication point. Joints stand first, the counterweight after the
-/// last joint of the structure.
+/// What comes from outside at a communication point. Joints stand first, what
+/// balances the arm after the last joint of the structure.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Inputs {
     /// Rates at the beginning of the step \[rad/s, m/s\].
@@ -57,12 +57,13 @@ pub struct Outputs {
     pub velocity: Vector3<f64>,
     /// Acceleration of the UAV \[m/s2, m/s2, rad/s2\].
     pub acceleration: Vector3<f64>,
-    /// Positions of joints and counterweight \[rad, m\].
+    /// Positions of the coordinates \[rad, m\].
     pub position: [f64; MAX_COORDINATES],
-    /// Rates of joints and counterweight \[rad/s, m/s\].
+    /// Rates of the coordinates \[rad/s, m/s\].
     pub rate: [f64; MAX_COORDINATES],
-    /// Mean torques of the joints' motors on the outer links \[N m\].
-    pub joint_torque: [f64; MAX_COORDINATES],
+    /// Mean torques of the joints' motors on the outer links, of the balance element's motor on it \[N m\], or
+    /// mean force of the counterweight's motor on it \[N\].
+    pub effort: [f64; MAX_COORDINATES],
     /// Position of the end effector \[m\].
     pub end_effector: Vec2,
     /// Velocity of the end effector \[m/s\].
@@ -91,7 +92,7 @@ pub struct Outputs {
 /// itself: left limits, per second; 0 before the first step.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Rates {
-    /// Accelerations of joints and counterweight \[rad/s2, m/s2\].
+    /// Accelerations of the coordinates \[rad/s2, m/s2\].
     pub coordinates: [f64; MAX_COORDINATES],
     /// Acceleration of the end effector \[m/s2\].
     pub end_effector_velocity: Vec2,

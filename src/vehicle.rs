@@ -1,13 +1,13 @@
 //! The mass properties of an aerial manipulator with `N` coordinates, ready for the equations of motion.
 //!
-//! Coordinates: the joint angles of `links` revolute links from the UAV outwards and, if there is one,
-//! the position of the counterweight as the last coordinate.
+//! Coordinates: the joint angles of `links` revolute links from the UAV outwards and, if something balances
+//! the arm, its position as the last coordinate.
 
 use crate::error::{Error, Result};
-use crate::parameters::{Parameters, Structure};
+use crate::parameters::{Balance, Parameters, Structure};
 use crate::planar::{Vec2, vec2};
 
-/// Mass moments of a link about its own joint, along the link.
+/// Mass moments of a body about its own joint, along the body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Body {
     /// Mass \[kg\].
@@ -43,15 +43,24 @@ pub struct Slider {
     pub height: f64,
 }
 
+/// What balances the arm, as the last coordinate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Balancer {
+    /// Slides.
+    Counterweight(Slider),
+    /// Turns about the UAV's centre of mass.
+    Element(Body),
+}
+
 /// Constants of an aerial manipulator with `N` coordinates.
 #[derive(Debug, Clone)]
 pub struct Vehicle<const N: usize> {
-    /// Number of revolute links: `N`, or `N - 1` with a counterweight.
+    /// Number of revolute links of the arm: `N`, or `N - 1` if something balances it.
     pub links: usize,
-    /// 1 for a joint, 0 for the counterweight.
+    /// 1 for a joint of the arm, 0 for what balances it.
     ///
-    /// In sums over the chain the counterweight's place is taken by a link without mass, length and joint:
-    /// loops over all `N` then have a length that the compiler knows, which halves their cost.
+    /// In sums over the arm its place is taken by a link without mass, length and joint: loops over all `N`
+    /// then have a length that the compiler knows, which halves their cost.
     pub revolute: [f64; N],
     /// Acceleration of gravity \[m/s2\].
     pub gravity: f64,
@@ -63,14 +72,37 @@ pub struct Vehicle<const N: usize> {
     pub mount: Vec2,
     /// Lengths of the links \[m\].
     pub length: [f64; N],
-    /// Counterweight, if there is one.
-    pub counterweight: Option<Slider>,
+    /// What balances the arm, if anything.
+    pub balancer: Option<Balancer>,
     /// Mass of the payload \[kg\].
     pub payload_mass: f64,
     /// Distance of the held payload from the last joint \[m\].
     pub payload_com: f64,
     empty: [Body; N],
     loaded: [Body; N],
+}
+
+impl Balancer {
+    fn new(balance: Balance, parameters: &Parameters) -> Option<Self> {
+        match balance {
+            Balance::None => None,
+            Balance::Counterweight => {
+                let body = &parameters.counterweight;
+                Some(Self::Counterweight(Slider { mass: body.mass, inertia: body.inertia, height: body.height }))
+            }
+            Balance::Element => {
+                let body = &parameters.balance_element;
+                Some(Self::Element(Body::new(body.mass, body.com, body.inertia)))
+            }
+        }
+    }
+
+    fn mass(&self) -> f64 {
+        match self {
+            Self::Counterweight(slider) => slider.mass,
+            Self::Element(body) => body.mass,
+        }
+    }
 }
 
 impl<const N: usize> Vehicle<N> {
@@ -104,11 +136,7 @@ impl<const N: usize> Vehicle<N> {
             uav_inertia: parameters.uav.inertia,
             mount: vec2(parameters.mount.x, parameters.mount.y),
             length,
-            counterweight: structure.counterweight.then_some(Slider {
-                mass: parameters.counterweight.mass,
-                inertia: parameters.counterweight.inertia,
-                height: parameters.counterweight.height,
-            }),
+            balancer: Balancer::new(structure.balance, parameters),
             payload_mass: payload.mass,
             payload_com: payload.com,
             empty,
@@ -122,12 +150,12 @@ impl<const N: usize> Vehicle<N> {
         if held { &self.loaded } else { &self.empty }
     }
 
-    /// Mass of UAV, arm and counterweight, without the payload \[kg\].
+    /// Mass of UAV, arm and what balances it, without the payload \[kg\].
     #[must_use]
     pub fn mass(&self) -> f64 {
         self.uav_mass
             + self.empty.iter().map(|body| body.mass).sum::<f64>()
-            + self.counterweight.map_or(0.0, |slider| slider.mass)
+            + self.balancer.map_or(0.0, |balancer| balancer.mass())
     }
 
     /// Largest distance of a point of the stretched arm from the UAV's centre of mass \[m\].

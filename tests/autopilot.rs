@@ -11,12 +11,13 @@ use common::{assert_close, cases, simpson};
 use nalgebra::{Vector2, Vector3};
 use proptest::prelude::*;
 use uam::autopilot::AutopilotMode;
+use uam::parameters::Balance;
 use uam::scenarios::default_parameters;
 use uam::{Parameters, Structure};
 
 /// One link that hangs straight down: it moves vertically like a point of M = 4.2 kg + 1 kg.
 fn plumb(change: impl Fn(&mut Parameters)) -> Run {
-    let structure = Structure::new(1, false).unwrap();
+    let structure = Structure::new(1, Balance::None).unwrap();
     let mut parameters = default_parameters(structure);
     change(&mut parameters);
     Run::new(structure, parameters)

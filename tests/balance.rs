@@ -61,22 +61,17 @@ proptest! {
         assert_close(change.as_slice(), simpson(&loads, STEP).as_slice(), 2e-10, "impulse");
     }
 
-    /// Work of joint motors (mean torque times way), rotors and outer loads is the change of energy. The
-    /// counterweight stays where it is.
+    /// Work of the coordinates' motors (mean torque or force times way), rotors and outer loads is the change
+    /// of energy.
     #[test]
     fn energy_changes_by_the_work_done(seed: u64, mode in free_mode(), held: bool) {
         let (mut run, _) = in_motion(seed, mode, held);
-        let structure = run.model.structure;
-        if structure.counterweight {
-            run.inputs.rate_command[structure.links] = 0.0;
-            run.jump();
-        }
         run.step(STEP); // the torques of this one contain the jump
         let before = run.model.energy(&run.outputs);
         let record = run.record(40, STEP);
         let rate = run.inputs.rate_command;
         let motors: f64 = record[1..].iter()
-            .map(|o| (0..structure.links).map(|i| o.joint_torque[i] * rate[i] * STEP).sum::<f64>())
+            .map(|o| o.effort.iter().zip(&rate).map(|(effort, rate)| effort * rate * STEP).sum::<f64>())
             .sum();
         let power: Vec<f64> = record.iter().map(|o| power(&run, o)).collect();
         let change = run.model.energy(&run.outputs) - before;
@@ -93,8 +88,8 @@ proptest! {
         assert_close(after(0.01).acceleration.as_slice(), difference.as_slice(), 2e-8, "acceleration");
     }
 
-    /// Without rotors and loads the centre of mass falls on a parabola and p_y = -M g t, whatever joints and
-    /// counterweight do, jumps and slopes included.
+    /// Without rotors and loads the centre of mass falls on a parabola and p_y = -M g t, whatever the
+    /// coordinates do, jumps and slopes included.
     #[test]
     fn free_fall(seed: u64) {
         let mut run = falling(seed, true);
@@ -146,6 +141,7 @@ proptest! {
             p.mount.x *= side;
             p.joints.iter_mut().for_each(|joint| joint.start *= side);
             p.counterweight.start *= side;
+            p.balance_element.start *= side;
             let mut now = Run::new(structure, p);
             now.inputs = inputs.clone();
             now.inputs.rate_command.iter_mut().for_each(|rate| *rate *= side);
@@ -197,6 +193,6 @@ fn mirrored(o: &Outputs, side: f64) -> Vec<f64> {
         all.extend([side * v.x, v.y]);
     }
     all.extend([o.thrust, side * o.torque, side * o.transmitted_moment, o.support_force]);
-    all.extend([o.position, o.rate, o.joint_torque].concat().iter().map(|odd| side * odd));
+    all.extend([o.position, o.rate, o.effort].concat().iter().map(|odd| side * odd));
     all
 }

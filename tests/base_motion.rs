@@ -9,7 +9,7 @@ use common::coupling::Coupling;
 use common::run::Run;
 use nalgebra::{Matrix2, Vector2};
 use uam::controller;
-use uam::parameters::{BaseModel, Discretization, Resolution};
+use uam::parameters::{Balance, BaseModel, Discretization, Resolution};
 use uam::scenarios::{default_parameters, find};
 use uam::{Parameters, Structure};
 
@@ -17,7 +17,7 @@ const MODELS: [BaseModel; 5] =
     [BaseModel::Ideal, BaseModel::HorizontalThrust, BaseModel::VerticalThrust, BaseModel::Translating, BaseModel::Full];
 
 fn links(number: usize) -> Structure {
-    Structure::new(number, false).unwrap()
+    Structure::new(number, Balance::None).unwrap()
 }
 
 /// (2.6) with (2.5) or (2.7), and (2.20) with (2.21), as printed but for the misprints: two equal links of

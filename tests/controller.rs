@@ -34,7 +34,7 @@ fn all_structures_run_with_their_defaults() {
         for _ in 0..100 {
             coupling.step(0.01);
             let (o, c) = (&coupling.plant.outputs, &coupling.commands);
-            let all = [&coupling.plant.motion()[..], &o.joint_torque, &c.rate_command, &c.predicted_position].concat();
+            let all = [&coupling.plant.motion()[..], &o.effort, &c.rate_command, &c.predicted_position].concat();
             assert!(all.iter().all(|value| value.is_finite()), "{structure}");
             let limits = coupling.plant.model.parameters.joints.iter().map(|joint| joint.rate_limit);
             assert!(c.rate_command.iter().zip(limits).take(structure.links).all(|(r, l)| r.abs() <= l * (1.0 + 1e-15)));

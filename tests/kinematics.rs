@@ -11,11 +11,12 @@ use common::{assert_close, cases};
 use nalgebra::Vector2;
 use proptest::prelude::*;
 use uam::Structure;
+use uam::parameters::Balance;
 use uam::plant::Outputs;
 use uam::scenarios::default_parameters;
 
 fn hanging(links: usize) -> Run {
-    let structure = Structure::new(links, false).unwrap();
+    let structure = Structure::new(links, Balance::None).unwrap();
     let mut parameters = default_parameters(structure);
     parameters.joints.iter_mut().for_each(|joint| joint.start = 0.0);
     (parameters.mount.x, parameters.mount.y) = (0.02, -0.05);
@@ -34,7 +35,7 @@ fn the_arm_hangs_straight_down_at_zero() {
 /// One link of length l at the angle a: (l sin a, -l cos a); the second one turns on from there.
 #[test]
 fn the_end_effector_of_two_links_in_closed_form() {
-    let structure = Structure::new(2, false).unwrap();
+    let structure = Structure::new(2, Balance::None).unwrap();
     let mut parameters = default_parameters(structure);
     (parameters.joints[0].start, parameters.joints[1].start) = (0.4, 0.5);
     let tip = Run::new(structure, parameters).outputs.end_effector;

@@ -10,6 +10,7 @@ use common::{assert_close, cases, simpson};
 use nalgebra::{Vector2, Vector3};
 use proptest::prelude::*;
 use uam::autopilot::AutopilotMode;
+use uam::parameters::Balance;
 use uam::plant::Outputs;
 
 const STEP: f64 = 1e-3;
@@ -83,6 +84,8 @@ impl Observed {
 
     /// Impulse of weight and outer loads on some bodies with moments about a moving point, less the integral
     /// of (velocity of the point) x (momentum), then the change of momentum about the point.
+    ///
+    /// The loads on the end effector count if the last link is one of the bodies.
     fn balance(
         &self,
         which: impl Fn(Part) -> bool + Copy,
@@ -102,10 +105,12 @@ impl Observed {
             let bodies: Vec<Body> = model.observed(o, o.attached).into_iter().filter(|b| which(b.part)).collect();
             let push = if o.attached { model.parameters.support.stiffness * model.pressed(o) } else { 0.0 };
             let support = Vector2::new(0.0, push);
-            let force = run.inputs.end_effector_force + support;
-            let moment = run.inputs.end_effector_torque
+            let loaded = f64::from(which(Part::Link(model.structure.links - 1)));
+            let force = (run.inputs.end_effector_force + support) * loaded;
+            let moment = (run.inputs.end_effector_torque
                 + cross(model.end_effector(&at) - about, run.inputs.end_effector_force)
-                + cross(model.payload(&at) - about, support)
+                + cross(model.payload(&at) - about, support))
+                * loaded
                 + model::weight_moment(&bodies, model.gravity(), about)
                 - cross(velocity, model::momentum(&bodies));
             Vector3::new(force.x, force.y - model::mass(&bodies) * model.gravity(), moment)
@@ -136,16 +141,39 @@ proptest! {
         assert_close(&found, ((impulse - change) / SIZE).as_slice(), 1e-8, "wrench");
     }
 
-    /// What lies outboard of a joint obeys Euler about it: change of K = motor's impulse + outer impulse.
+    /// What a joint or the balance element's motor moves obeys Euler about its axis: change of K = motor's
+    /// impulse + outer impulse.
     #[test]
-    fn joint_torques(seed: u64, mode in any_mode(), event in events()) {
+    fn torques(seed: u64, mode in any_mode(), event in events()) {
         let observed = observe(seed, mode, event);
-        for i in 0..observed.end.model.structure.links {
-            let joint = |run: &Run, o: &Outputs| run.model.joints(&run.model.coordinates(o))[i];
-            let [impulse, change] = observed.balance(|part| part.is_outboard(i), joint);
-            let found = observed.end.outputs.joint_torque[i];
+        let model = &observed.end.model;
+        for i in (0..model.structure.coordinates()).filter(|&i| !model.slides(i)) {
+            let axis = |run: &Run, o: &Outputs| run.model.axis(&run.model.coordinates(o), i);
+            let [impulse, change] = observed.balance(|part| part.is_moved_by(i, model.structure), axis);
+            let found = observed.end.outputs.effort[i];
             assert_close(&[found], &[(change - impulse).z / SIZE], 1e-8, "torque");
         }
+    }
+
+    /// Along the UAV's x axis, which turns with the roll, the counterweight obeys Newton:
+    /// d(p . x)/dt = (force of its motor) + weight . x + roll rate * (p . y).
+    #[test]
+    fn force_on_the_counterweight(seed: u64, mode in any_mode(), event in events()) {
+        let observed = observe(seed, mode, event);
+        let model = &observed.end.model;
+        let i = model.structure.links;
+        prop_assume!(model.slides(i));
+        let momentum = |o: &Outputs| {
+            let bodies = model.observed(o, false);
+            model::momentum(&bodies.into_iter().filter(|b| b.part == Part::Counterweight).collect::<Vec<_>>())
+        };
+        let axis = |o: &Outputs| Vector2::new(o.pose.z.cos(), o.pose.z.sin());
+        let along = |o: &Outputs| momentum(o).dot(&axis(o));
+        let weight = model.parameters.counterweight.mass * model.gravity();
+        let load = |o: &Outputs| o.velocity.z * cross(axis(o), momentum(o)) - weight * o.pose.z.sin();
+        let impulse = simpson(&observed.nodes.iter().map(load).collect::<Vec<_>>(), STEP);
+        let change = along(&observed.end.outputs) - along(&observed.before.outputs);
+        assert_close(&[observed.end.outputs.effort[i]], &[(change - impulse) / SIZE], 1e-8, "force");
     }
 
     /// The payload obeys Newton: its force on the arm is weight + support - change of momentum.
@@ -174,7 +202,7 @@ proptest! {
         let means = |o: &Outputs| {
             let control = if mode == AutopilotMode::Ideal { [o.thrust, o.torque] } else { [0.0; 2] };
             let force = [o.transmitted_force.x, o.transmitted_force.y, o.transmitted_moment];
-            nalgebra::DVector::from_vec([&control[..], &force, &o.joint_torque].concat())
+            nalgebra::DVector::from_vec([&control[..], &force, &o.effort].concat())
         };
         let mut run = observed.before.clone();
         run.inputs = observed.end.inputs.clone();
@@ -201,7 +229,7 @@ proptest! {
 /// step changes nothing about the initial outputs.
 #[test]
 fn at_rest_the_means_are_the_static_loads() {
-    let structure = uam::Structure::new(2, true).unwrap();
+    let structure = uam::Structure::new(2, Balance::Counterweight).unwrap();
     let mut p = uam::scenarios::default_parameters(structure);
     (p.joints[0].start, p.joints[1].start) = (0.3, 0.4);
     p.autopilot.mode = AutopilotMode::Ideal;
@@ -212,7 +240,7 @@ fn at_rest_the_means_are_the_static_loads() {
     let total = expected[0];
     for _ in 0..2 {
         let o = &run.outputs;
-        assert_close(&o.joint_torque[..2], &expected, 1e-12, "joint torques");
+        assert_close(&o.effort[..2], &expected, 1e-12, "joint torques");
         assert_close(&[o.transmitted_moment, o.torque], &[-total, total], 1e-12, "moment");
         assert_close(o.transmitted_force.as_slice(), &[0.0, -9.81 * 4.2], 1e-11, "force");
         assert_close(&[o.thrust], &[9.81 * 6.2], 1e-11, "thrust");

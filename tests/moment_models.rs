@@ -14,7 +14,7 @@ use nalgebra::{Vector2, Vector3};
 use proptest::prelude::*;
 use uam::autopilot::AutopilotMode;
 use uam::controller::{self, Status};
-use uam::parameters::{BaseModel, Discretization, MomentModel, Resolution};
+use uam::parameters::{Balance, BaseModel, Discretization, MomentModel, Resolution};
 use uam::reference::{Leg, Profile};
 use uam::{Parameters, Structure};
 
@@ -23,7 +23,7 @@ const INSTANTS: usize = 9;
 
 /// A random vehicle of 3 to 6 links that follows a short path, calm enough for steps of 5 ms.
 fn vehicle(random: &mut Random) -> (Structure, Parameters) {
-    let structure = Structure::new(3 + (random.unit() * 4.0) as usize, false).unwrap();
+    let structure = Structure::new(3 + (random.unit() * 4.0) as usize, Balance::None).unwrap();
     let mut p = random.parameters(structure);
     for joint in &mut p.joints {
         joint.start = random.between(0.4, 1.2) * if random.coin() { 1.0 } else { -1.0 };

@@ -6,7 +6,7 @@ use common::model::{self, Coordinates, Model};
 use common::random::Random;
 use common::run::Run;
 use common::{assert_close, cases};
-use nalgebra::{SVector, Vector3};
+use nalgebra::{SVector, Vector2, Vector3};
 use proptest::prelude::*;
 use uam::for_coordinates;
 use uam::kinematics::{Configuration, Posture};
@@ -70,17 +70,14 @@ fn library(case: &Case) -> uam::Result<(Vec<f64>, Vec<f64>)> {
     })
 }
 
-/// (p, angular momentum about the joint) outboard of each joint, inertial frame.
-fn library_outboard(case: &Case) -> uam::Result<Vec<[f64; 3]>> {
+/// Momentum of what each coordinate moves, and how fast it changes by the motion alone.
+fn library_outboard(case: &Case) -> uam::Result<Vec<[f64; 2]>> {
     let Case { model, at, speed, held } = case;
     for_coordinates!(model.structure, N => {
         let (vehicle, posture) = prepare::<N>(model.structure, &model.parameters, at)?;
         let rate = SVector::<f64, N>::from_fn(|i, _| speed.q[i]);
         let all = outboard(&vehicle, &posture, *held, base_twist(case), &rate);
-        Ok(all.iter().take(model.structure.links).map(|outer| {
-            let p = Turn::by(at.pose.z).apply(outer.momentum.linear);
-            [p.x, p.y, outer.momentum.angular]
-        }).collect())
+        Ok(all.iter().map(|outer| [outer.momentum, outer.drift]).collect())
     })
 }
 
@@ -118,12 +115,22 @@ proptest! {
     #[test]
     fn outboard_momentum_is_the_sum_over_the_bodies_outboard(seed: u64, held: bool) {
         let case = case(seed, held);
-        let joints = case.model.joints(&case.at);
-        let bodies = case.model.bodies(&case.at, &case.speed, held);
+        let Case { model, at, speed, .. } = &case;
+        let bodies = model.bodies(at, speed, held);
         for (i, found) in library_outboard(&case).unwrap().iter().enumerate() {
-            let outer: Vec<_> = bodies.iter().copied().filter(|body| body.part.is_outboard(i)).collect();
+            let outer: Vec<_> = bodies.iter().copied().filter(|body| body.part.is_moved_by(i, model.structure)).collect();
             let p = model::momentum(&outer);
-            assert_close(found, &[p.x, p.y, model::angular_momentum(&outer, joints[i])], 1e-10, "outboard");
+            let expected = if model.slides(i) {
+                // Along the UAV's x axis, which turns with the roll.
+                let (sin, cos) = at.pose.z.sin_cos();
+                let (x, y) = (Vector2::new(cos, sin), Vector2::new(-sin, cos));
+                [p.dot(&x), p.dot(&y) * speed.pose.z]
+            } else {
+                let joint = |model: &Model, at: &Coordinates| model.axis(at, i);
+                let velocity = model.velocity_of(at, speed, joint);
+                [model::angular_momentum(&outer, joint(model, at)), -model::cross(velocity, p)]
+            };
+            assert_close(found, &expected, 1e-9, "outboard");
         }
     }
 

@@ -2,7 +2,7 @@
 
 mod common;
 
-use uam::parameters::{MAX_LINKS, Resolution};
+use uam::parameters::{Balance, MAX_LINKS, Resolution};
 use uam::scenarios::default_parameters;
 use uam::{Error, Parameters, Structure, controller, plant};
 
@@ -23,7 +23,7 @@ fn defaults_are_within_their_bounds() {
 
 #[test]
 fn check_names_the_parameter_out_of_its_bounds() {
-    let structure = Structure::new(3, true).unwrap();
+    let structure = Structure::new(3, Balance::Counterweight).unwrap();
     let wrong: [(&str, Change); 16] = [
         ("gravity", |p| p.gravity = -9.81),
         ("uav.mass", |p| p.uav.mass = -1.0),
@@ -55,7 +55,7 @@ fn check_names_the_parameter_out_of_its_bounds() {
 /// What the structure does not have is not looked at.
 #[test]
 fn parameters_beyond_the_structure_are_ignored() {
-    let structure = Structure::new(2, false).unwrap();
+    let structure = Structure::new(2, Balance::None).unwrap();
     let parameters = changed(structure, |p| {
         p.links[2].mass = -1.0;
         p.counterweight.mass = f64::NAN;
@@ -67,22 +67,20 @@ fn parameters_beyond_the_structure_are_ignored() {
 #[test]
 fn arms_of_no_or_too_many_links_are_refused() {
     for links in [0, MAX_LINKS + 1] {
-        assert_eq!(Structure::new(links, false), Err(Error::Structure { links, largest: MAX_LINKS }));
+        assert_eq!(Structure::new(links, Balance::None), Err(Error::Structure { links, largest: MAX_LINKS }));
     }
-    assert_eq!(Structure::all().count(), 2 * MAX_LINKS);
+    assert_eq!(Structure::all().count(), 3 * MAX_LINKS);
 }
 
 fn new_controller(structure: Structure, parameters: &Parameters) -> Option<Error> {
     controller::new(structure, parameters, &mut controller::Outputs::default()).err()
 }
 
-/// Two joints follow the path and have nothing left; the counterweight holds still.
+/// Two joints follow the path and have nothing left; what balances the arm holds still.
 #[test]
 fn the_extended_jacobian_needs_three_joints() {
-    for (links, counterweight, enough) in
-        [(1, false, false), (2, false, false), (1, true, false), (2, true, false), (3, true, true)]
-    {
-        let structure = Structure::new(links, counterweight).unwrap();
+    for structure in Structure::all() {
+        let enough = structure.links > 2;
         let parameters = changed(structure, |p| p.ik.resolution = Resolution::ExtendedJacobian);
         match new_controller(structure, &parameters) {
             None => assert!(enough, "{structure}"),
@@ -118,8 +116,8 @@ fn links_without_mass_are_admissible() {
         for link in &mut parameters.links {
             (link.mass, link.inertia) = (0.0, 0.0);
         }
-        parameters.counterweight.mass = 0.0;
-        parameters.counterweight.inertia = 0.0;
+        (parameters.counterweight.mass, parameters.counterweight.inertia) = (0.0, 0.0);
+        (parameters.balance_element.mass, parameters.balance_element.inertia) = (0.0, 0.0);
         parameters.check(structure).unwrap();
         let mut coupling = common::coupling::Coupling::new(structure, &parameters);
         for _ in 0..20 {

@@ -80,7 +80,7 @@ proptest! {
         weightless.steps(5, 0.02);
         without.steps(5, 0.02);
         assert_close(&weightless.motion(), &without.motion(), 1e-13, "motion");
-        assert_close(&weightless.outputs.joint_torque, &without.outputs.joint_torque, 1e-10, "torque");
+        assert_close(&weightless.outputs.effort, &without.outputs.effort, 1e-10, "torque");
         assert_eq!(weightless.outputs.payload_force.norm(), 0.0);
     }
 }

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used)] // in helpers, too
 
 use proptest::prelude::*;
+use uam::parameters::Balance;
 use uam::scenarios::{Error, Extent, Scenario, catalogue, default_parameters, find};
 use uam::{Parameters, Structure};
 
@@ -33,7 +34,7 @@ fn changed(line: usize, text: &str) -> String {
 #[test]
 fn a_file_changes_the_start_values() {
     let scenario = Scenario::read(SMALL).unwrap();
-    let structure = Structure::new(2, false).unwrap();
+    let structure = Structure::new(2, Balance::None).unwrap();
     let mut expected = default_parameters(structure);
     expected.payload.mass = 0.1;
     expected.joints[0].start = -0.5;

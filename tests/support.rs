@@ -10,6 +10,7 @@ use common::{assert_close, cases};
 use proptest::prelude::*;
 use uam::Structure;
 use uam::autopilot::{AutopilotMode, Gains};
+use uam::parameters::Balance;
 use uam::scenarios::default_parameters;
 
 /// One link straight down with the payload in the gripper, without control: a point of M = 5.7 kg that moves
@@ -19,7 +20,7 @@ const G: f64 = 9.81;
 const STIFFNESS: f64 = 1000.0;
 
 fn plumb(gap: f64) -> Run {
-    let structure = Structure::new(1, false).unwrap();
+    let structure = Structure::new(1, Balance::None).unwrap();
     let mut parameters = default_parameters(structure);
     parameters.autopilot.mode = AutopilotMode::External;
     parameters.support.stiffness = STIFFNESS;

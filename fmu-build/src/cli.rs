@@ -7,7 +7,7 @@ use clap::{Args, Parser, Subcommand};
 use fmu_build::study::DISCRETIZATIONS;
 use uam::Structure;
 use uam::options::Choice;
-use uam::parameters::{Discretization, MAX_LINKS};
+use uam::parameters::{Balance, Discretization, MAX_LINKS};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -84,17 +84,35 @@ pub struct BuildArguments {
     /// Revolute links of the arm, 1 to 6
     #[arg(long, value_name = "NUMBER", default_value_t = Structure::DEFAULT.links, value_parser = links, allow_hyphen_values = true)]
     pub links: usize,
-    /// A counterweight that slides along the UAV
-    #[arg(long)]
+    /// A counterweight that slides along the UAV balances the arm
+    #[arg(long, conflicts_with = "balance_element")]
     pub counterweight: bool,
+    /// A driven body that turns about the UAV's centre of mass balances the arm
+    #[arg(long)]
+    pub balance_element: bool,
     /// Vehicle, gains, method and path of a simulation as start values, by its name in `list` or as a TOML file
     ///
     /// The FMUs then run this simulation in any host that sets nothing. `show` prints a file to start from.
-    #[arg(long, value_name = "NAME|FILE", visible_alias = "parameters", conflicts_with_all = ["links", "counterweight"])]
+    #[arg(long, value_name = "NAME|FILE", visible_alias = "parameters", conflicts_with_all = ["links", "counterweight", "balance_element"])]
     pub scenario: Option<String>,
     /// Names like joint_1_rate_command instead of joint[1].rate_command, for hosts that make buses of the latter
     #[arg(long)]
     pub flat: bool,
+}
+
+impl BuildArguments {
+    /// The structure asked for.
+    ///
+    /// # Errors
+    /// If there is no such structure.
+    pub fn structure(&self) -> uam::Result<Structure> {
+        let balance = match (self.counterweight, self.balance_element) {
+            (true, _) => Balance::Counterweight,
+            (false, true) => Balance::Element,
+            (false, false) => Balance::None,
+        };
+        Structure::new(self.links, balance)
+    }
 }
 
 /// Which simulation, and how.
@@ -141,7 +159,7 @@ pub struct ExportArguments {
 
 fn links(text: &str) -> Result<usize, String> {
     let number: usize = text.parse().map_err(|_| format!("an arm has 1 to {MAX_LINKS} links"))?;
-    Structure::new(number, false).map(|structure| structure.links).map_err(|error| error.to_string())
+    Structure::new(number, Balance::None).map(|structure| structure.links).map_err(|error| error.to_string())
 }
 
 fn seconds(text: &str) -> Result<f64, String> {
@@ -174,6 +192,7 @@ mod tests {
         for number in ["0", "7", "-1", "two", "2.5"] {
             assert!(refusal(&format!("fmu-build build --links {number}")).contains("1 to 6"));
         }
+        assert!(refusal("fmu-build build --counterweight --balance-element").contains("cannot be used with"));
         assert!(refusal("fmu-build simulate 4.3a --discretization rk4").contains("euler, exact"));
         assert!(refusal("fmu-build simulate 4.3a --step soon").contains("for instance 0.001"));
     }

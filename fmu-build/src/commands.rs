@@ -65,7 +65,7 @@ fn design(arguments: &BuildArguments) -> Result<Design> {
     let naming = if arguments.flat { Naming::Flat } else { Naming::Structured };
     let design = match &arguments.scenario {
         Some(name_or_file) => Design::from(scenario(name_or_file)?),
-        None => Design::from(Structure::new(arguments.links, arguments.counterweight)?),
+        None => Design::from(arguments.structure()?),
     };
     Ok(Design { naming, ..design })
 }

@@ -23,18 +23,18 @@ impl Names {
     #[must_use]
     pub fn standard(structure: Structure) -> Self {
         let per_joint = |suffix: &'static str| (1..=structure.links).map(move |n| format!("joint[{n}].{suffix}"));
-        let per_counterweight = |name: &'static str| structure.counterweight.then(|| name.to_owned());
+        let balance = |suffix: &'static str| structure.balance.prefix().map(|name| format!("{name}.{suffix}"));
         let list = |names: &'static [&'static str]| names.iter().map(|&name| name.to_owned());
         Self {
             controller: list(&["reference.x", "reference.y"])
                 .chain(list(&["predicted.base.x", "predicted.base.y", "predicted.base.roll"]))
                 .chain(per_joint("rate_command"))
-                .chain(per_counterweight("counterweight.rate_command"))
+                .chain(balance("rate_command"))
                 .chain(list(&["ik.status", "ik.min_singular_value"]))
                 .collect(),
             plant: list(&["base.x", "base.y", "base.roll"])
                 .chain(per_joint("position"))
-                .chain(per_counterweight("counterweight.position"))
+                .chain(balance("position"))
                 .chain(list(&[
                     "end_effector.x",
                     "end_effector.y",

@@ -122,7 +122,7 @@ fn the_system_connects_rates_and_grasp_and_nothing_else() {
         let inputs = document.descendants().filter(|node| node.attribute("kind") == Some("input"));
         let inputs: Vec<_> = inputs.map(|input| input.attribute("name").unwrap()).collect();
         let mut expected: Vec<_> = (1..=structure.links).map(|n| format!("joint[{n}].rate_command")).collect();
-        expected.extend(structure.counterweight.then(|| "counterweight.rate_command".to_owned()));
+        expected.extend(structure.balance.prefix().map(|name| format!("{name}.rate_command")));
         expected.push("grasp".to_owned());
         assert_eq!(connections, expected, "{structure}");
         assert_eq!(inputs, expected, "no input is listed without a connection");

@@ -218,13 +218,13 @@ impl<const N: usize> Controller<N> {
 
     /// How the system answers to the rates that the resolution may use.
     ///
-    /// The counterweight holds still. Minimum norm would displace it without regard to the moment of its
-    /// weight; and since it sits above the UAV's centre of mass, its acceleration turns the UAV the wrong way
-    /// before its weight turns it the right way (thesis 3.8), so that rates which cancel the moment at every
-    /// instant would grow without bound.
+    /// What balances the arm holds still. Minimum norm would displace it without regard to the moment of its
+    /// weight; and since a counterweight sits above the UAV's centre of mass, its acceleration turns the UAV the
+    /// wrong way before its weight turns it the right way (thesis 3.8), so that rates which cancel the moment at
+    /// every instant would grow without bound.
     pub(super) fn response(&self, situation: &Situation<N>) -> Response<N> {
         let response = Response::new(&self.dynamics, situation);
-        if self.dynamics.vehicle.counterweight.is_some() { response.holding(N - 1) } else { response }
+        if self.dynamics.vehicle.balancer.is_some() { response.holding(N - 1) } else { response }
     }
 
     /// Advances the prediction by `size` \[s\] at the rates sent.

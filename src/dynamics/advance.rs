@@ -9,6 +9,7 @@ use crate::autopilot::AutopilotMode;
 use crate::error::{Error, Result};
 use crate::kinematics::Configuration;
 use crate::planar::{Turn, vec2};
+use crate::vehicle::Balancer;
 
 /// Longest internal step \[s\]; a millisecond that is not quite one, by rounding, is not cut in two.
 const LONGEST: f64 = 1.05e-3;
@@ -156,7 +157,14 @@ impl<const N: usize> Dynamics<N> {
         size: f64,
     ) -> f64 {
         let vehicle = &self.vehicle;
-        let turning = |rate: SVector<f64, N>| rate.iter().take(vehicle.links).map(|rate| rate.abs()).sum::<f64>();
+        let turning = |rate: SVector<f64, N>| {
+            let arm = rate.iter().take(vehicle.links).map(|rate| rate.abs()).sum::<f64>();
+            match vehicle.balancer {
+                // Nobody sees a disc turn.
+                Some(Balancer::Element(body)) if body.first != 0.0 => arm.max(rate[N - 1].abs()),
+                _ => arm,
+            }
+        };
         let turning = turning(motion.rate).max(turning(motion.rate_after(size))) + TUMBLING * roll_rate.abs();
         let longest = LONGEST.min(RESOLUTION / turning.max(self.control_rate));
         if !contact {

@@ -8,7 +8,7 @@ use crate::kinematics::{Configuration, Posture};
 use crate::memory;
 use crate::momentum::{MomentumMatrix, Twist, outboard};
 use crate::planar::{Turn, Vec2, cross, perp, vec2};
-use crate::vehicle::Vehicle;
+use crate::vehicle::{Balancer, Vehicle};
 
 /// x, y, roll, p_x, p_y, K, integral of the altitude error, integral of the roll error.
 ///
@@ -191,7 +191,14 @@ impl<const N: usize> Dynamics<N> {
             for (i, outer) in outboard.iter().enumerate() {
                 let pushed = push_moment - cross(posture.joint[i], tip + lift);
                 let weighed = cross(node.matrix.outboard_first[i], gravity);
-                impulse.outboard[i] = weighed + pushed - cross(outer.velocity, outer.momentum.linear);
+                impulse.outboard[i] = weighed + pushed + outer.drift;
+            }
+            if let Some(balancer) = vehicle.balancer {
+                let weighed = match balancer {
+                    Balancer::Counterweight(slider) => slider.mass * gravity.x,
+                    Balancer::Element(_) => cross(node.matrix.outboard_first[N - 1], gravity),
+                };
+                impulse.outboard[N - 1] = weighed + outboard[N - 1].drift;
             }
         } else {
             let outer = moment - control.y - load.base_torque;

@@ -2,7 +2,7 @@
 
 mod derivatives;
 
-use super::declare_time;
+use super::{Balancing, declare_time};
 use crate::bytes::{Memory, Tape};
 use crate::controller::{self, Inputs, Outputs, Rates};
 use crate::error::Error;
@@ -157,6 +157,7 @@ const PLAN: &[&str] = &[
     "link",
     "joint",
     "counterweight",
+    "balance_element",
     "autopilot",
     "payload",
     "support",
@@ -176,12 +177,12 @@ fn declare_outputs(table: &mut Table<Data>, structure: Structure) {
             |d, i| &mut d.outputs.rate_command[i],
         );
     }
-    if structure.counterweight {
+    if let Some(Balancing { name, noun, units: [_, rate, ..], .. }) = Balancing::new(structure.balance) {
         table.output().at(structure.links).initially_from(PLAN).real(
-            "counterweight.rate_command",
-            &unit::METRE_PER_SECOND,
+            format!("{name}.rate_command"),
+            rate,
             Bounds::ANY,
-            "Rate for the counterweight until the next communication point; both resolutions hold it still",
+            format!("Rate for the {noun} until the next communication point; both resolutions hold it still"),
             |d, i| &mut d.outputs.rate_command[i],
         );
     }
@@ -278,12 +279,12 @@ fn declare_outputs(table: &mut Table<Data>, structure: Structure) {
             |d, i| &mut d.outputs.predicted_position[i],
         );
     }
-    if structure.counterweight {
-        table.output().at(structure.links).initially_from(&["counterweight.start"]).real(
-            "predicted.counterweight.position",
-            &unit::METRE,
+    if let Some(Balancing { name, place, units: [position, ..], .. }) = Balancing::new(structure.balance) {
+        table.output().at(structure.links).initially_from(&["counterweight.start", "balance_element.start"]).real(
+            format!("predicted.{name}.position"),
+            position,
             Bounds::ANY,
-            "Predicted position of the counterweight",
+            format!("{place}, predicted"),
             |d, i| &mut d.outputs.predicted_position[i],
         );
     }
@@ -313,7 +314,7 @@ fn declare_outputs(table: &mut Table<Data>, structure: Structure) {
             "ik.moment_residual",
             &unit::NEWTON_METRE,
             Bounds::ANY,
-            "Predicted mean moment that arm, payload and counterweight exert on the UAV under the present rates",
+            "Predicted mean moment of all that the UAV carries on the UAV under the present rates",
             |d, _| &mut d.outputs.moment_residual,
         );
 }

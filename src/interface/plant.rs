@@ -2,7 +2,7 @@
 
 mod derivatives;
 
-use super::declare_time;
+use super::{Balancing, declare_time};
 use crate::bytes::{Memory, Tape};
 use crate::error::Error;
 use crate::fmi2::{CommunicationStep, Model};
@@ -129,22 +129,22 @@ fn declare_inputs(table: &mut Table<Data>, structure: Structure) {
                 |d, i| &mut d.inputs.acceleration_command[i],
             );
     }
-    if structure.counterweight {
+    if let Some(Balancing { name, noun, units: [_, rate, acceleration, _], .. }) = Balancing::new(structure.balance) {
         table
             .input()
             .at(structure.links)
             .real(
-                "counterweight.rate_command",
-                &unit::METRE_PER_SECOND,
+                format!("{name}.rate_command"),
+                rate,
                 Bounds::ANY,
-                "Rate of the counterweight from the beginning of the communication step",
+                format!("Rate of the {noun} from the beginning of the communication step"),
                 |d, i| &mut d.inputs.rate_command[i],
             )
             .real(
-                "counterweight.acceleration_command",
-                &unit::METRE_PER_SECOND2,
+                format!("{name}.acceleration_command"),
+                acceleration,
                 Bounds::ANY,
-                "Slope of the counterweight's rate within the communication step; 0: zero-order hold",
+                format!("Slope of the rate of the {noun} within the communication step; 0: zero-order hold"),
                 |d, i| &mut d.inputs.acceleration_command[i],
             );
     }
@@ -231,6 +231,9 @@ const MASSES: &[&str] = &[
     "counterweight.mass",
     "counterweight.start",
     "counterweight.height",
+    "balance_element.mass",
+    "balance_element.com",
+    "balance_element.start",
 ];
 /// Parameters that decide what holds the vehicle at rest.
 const HOVER: &[&str] = &[
@@ -244,6 +247,9 @@ const HOVER: &[&str] = &[
     "joint.start",
     "counterweight.mass",
     "counterweight.start",
+    "balance_element.mass",
+    "balance_element.com",
+    "balance_element.start",
 ];
 /// Parameters that decide the moment of what the UAV carries at rest.
 const CARRIED: &[&str] = &[
@@ -255,9 +261,16 @@ const CARRIED: &[&str] = &[
     "joint.start",
     "counterweight.mass",
     "counterweight.start",
+    "balance_element.mass",
+    "balance_element.com",
+    "balance_element.start",
 ];
 /// Parameters that decide the torques that hold the joints at rest.
 const JOINTS: &[&str] = &["gravity", "link.mass", "link.length", "link.com", "joint.start"];
+/// Parameters that decide where what balances the arm is at the start.
+const BALANCE_START: &[&str] = &["counterweight.start", "balance_element.start"];
+/// Parameters that decide the torque that holds a balance element at rest; a counterweight needs no force.
+const BALANCE_EFFORT: &[&str] = &["gravity", "balance_element.mass", "balance_element.com", "balance_element.start"];
 
 fn declare_outputs(table: &mut Table<Data>, structure: Structure) {
     table
@@ -332,23 +345,32 @@ fn declare_outputs(table: &mut Table<Data>, structure: Structure) {
             format!(
                 "Torque of the motor of joint {n} on the outer link, mean over the step, jumps of the rates included"
             ),
-            |d, i| &mut d.outputs.joint_torque[i],
+            |d, i| &mut d.outputs.effort[i],
         );
     }
-    if structure.counterweight {
-        table.output().at(structure.links).initially_from(&["counterweight.start"]).real(
-            "counterweight.position",
-            &unit::METRE,
+    if let Some(Balancing { name, noun, place, exerted, effort, units: [position, rate, _, effort_unit] }) =
+        Balancing::new(structure.balance)
+    {
+        table.output().at(structure.links).initially_from(BALANCE_START).real(
+            format!("{name}.position"),
+            position,
             Bounds::ANY,
-            "Position of the counterweight along the UAV's x axis",
+            place,
             |d, i| &mut d.outputs.position[i],
         );
         table.output().at(structure.links).real(
-            "counterweight.rate",
-            &unit::METRE_PER_SECOND,
+            format!("{name}.rate"),
+            rate,
             Bounds::ANY,
-            "Rate of the counterweight",
+            format!("Rate of the {noun}"),
             |d, i| &mut d.outputs.rate[i],
+        );
+        table.output().at(structure.links).initially_from(BALANCE_EFFORT).real(
+            format!("{name}.{effort}"),
+            effort_unit,
+            Bounds::ANY,
+            format!("{exerted}, mean over the step, jumps of the rates included"),
+            |d, i| &mut d.outputs.effort[i],
         );
     }
     table

@@ -1,6 +1,6 @@
 //! The tables that name the parameters: units, bounds and descriptions.
 
-use super::{Parameters, Structure};
+use super::{Balance, Parameters, Structure};
 use crate::reference::LEGS;
 use crate::unit;
 use crate::variables::{Bounds, Table};
@@ -16,9 +16,7 @@ pub fn declare_shared<D: AsMut<Parameters>>(table: &mut Table<D>, structure: Str
             "Acceleration of gravity, downwards",
             |d, _| &mut d.as_mut().gravity,
         )
-        .real("uav.mass", &unit::KILOGRAM, Bounds::POSITIVE, "Mass of the UAV without arm and counterweight", |d, _| {
-            &mut d.as_mut().uav.mass
-        })
+        .real("uav.mass", &unit::KILOGRAM, Bounds::POSITIVE, "Mass of the UAV alone", |d, _| &mut d.as_mut().uav.mass)
         .real(
             "uav.inertia",
             &unit::KILOGRAM_METRE2,
@@ -83,33 +81,10 @@ pub fn declare_shared<D: AsMut<Parameters>>(table: &mut Table<D>, structure: Str
                 |d, i| &mut d.as_mut().joints[i].start,
             );
     }
-    if structure.counterweight {
-        table
-            .fixed()
-            .real("counterweight.mass", &unit::KILOGRAM, Bounds::NON_NEGATIVE, "Mass of the counterweight", |d, _| {
-                &mut d.as_mut().counterweight.mass
-            })
-            .real(
-                "counterweight.inertia",
-                &unit::KILOGRAM_METRE2,
-                Bounds::NON_NEGATIVE,
-                "Moment of inertia of the counterweight about its centre of mass",
-                |d, _| &mut d.as_mut().counterweight.inertia,
-            )
-            .real(
-                "counterweight.height",
-                &unit::METRE,
-                Bounds::ANY,
-                "Height of the counterweight in the UAV frame",
-                |d, _| &mut d.as_mut().counterweight.height,
-            )
-            .real(
-                "counterweight.start",
-                &unit::METRE,
-                Bounds::ANY,
-                "Position of the counterweight along the UAV's x axis at the start",
-                |d, _| &mut d.as_mut().counterweight.start,
-            );
+    match structure.balance {
+        Balance::None => {}
+        Balance::Counterweight => declare_counterweight(table),
+        Balance::Element => declare_balance_element(table),
     }
     declare_autopilot(table);
     table
@@ -137,6 +112,68 @@ pub fn declare_shared<D: AsMut<Parameters>>(table: &mut Table<D>, structure: Str
             Bounds::ANY,
             "Height of the unloaded support in the inertial frame",
             |d, _| &mut d.as_mut().support.height,
+        );
+}
+
+fn declare_counterweight<D: AsMut<Parameters>>(table: &mut Table<D>) {
+    table
+        .fixed()
+        .real("counterweight.mass", &unit::KILOGRAM, Bounds::NON_NEGATIVE, "Mass of the counterweight", |d, _| {
+            &mut d.as_mut().counterweight.mass
+        })
+        .real(
+            "counterweight.inertia",
+            &unit::KILOGRAM_METRE2,
+            Bounds::NON_NEGATIVE,
+            "Moment of inertia of the counterweight about its centre of mass",
+            |d, _| &mut d.as_mut().counterweight.inertia,
+        )
+        .real(
+            "counterweight.height",
+            &unit::METRE,
+            Bounds::ANY,
+            "Height of the counterweight in the UAV frame",
+            |d, _| &mut d.as_mut().counterweight.height,
+        )
+        .real(
+            "counterweight.start",
+            &unit::METRE,
+            Bounds::ANY,
+            "Position of the counterweight along the UAV's x axis at the start",
+            |d, _| &mut d.as_mut().counterweight.start,
+        );
+}
+
+fn declare_balance_element<D: AsMut<Parameters>>(table: &mut Table<D>) {
+    table
+        .fixed()
+        .real(
+            "balance_element.mass",
+            &unit::KILOGRAM,
+            Bounds::NON_NEGATIVE,
+            "Mass of the balance element, which turns about the UAV's centre of mass",
+            |d, _| &mut d.as_mut().balance_element.mass,
+        )
+        .real(
+            "balance_element.com",
+            &unit::METRE,
+            Bounds::ANY,
+            "Distance of the balance element's centre of mass from its axis",
+            |d, _| &mut d.as_mut().balance_element.com,
+        )
+        .real(
+            "balance_element.inertia",
+            &unit::KILOGRAM_METRE2,
+            Bounds::NON_NEGATIVE,
+            "Moment of inertia of the balance element about its centre of mass",
+            |d, _| &mut d.as_mut().balance_element.inertia,
+        )
+        .real(
+            "balance_element.start",
+            &unit::RADIAN,
+            Bounds::ANY,
+            "Angle of the balance element at the start; at 0 its centre of mass hangs below the axis",
+            |d, _| &mut d.as_mut().balance_element.start,
         );
 }
 

@@ -23,7 +23,7 @@ pub(super) struct Means<const N: usize> {
     time: f64,
     /// Velocity of the UAV \[m/s, m/s, rad/s\].
     velocity: Vector3<f64>,
-    /// Angular momentum outboard of each joint about it \[N m s\].
+    /// Of what each coordinate moves \[N m s, N s\].
     outboard: SVector<f64, N>,
     /// Momentum of the held payload \[N s\].
     payload: Vec2,
@@ -76,8 +76,8 @@ impl<const N: usize> Means<N> {
         }
 
         let momentum = outboard_momentum(vehicle, situation, state.held);
-        let torque = (momentum - self.outboard - impulse.outboard) * per_time;
-        outputs.joint_torque[..vehicle.links].copy_from_slice(&torque.as_slice()[..vehicle.links]);
+        let effort = (momentum - self.outboard - impulse.outboard) * per_time;
+        outputs.effort[..N].copy_from_slice(effort.as_slice());
 
         let payload = if state.held { payload_momentum(vehicle, situation) } else { Vec2::zeros() };
         outputs.payload_force = if state.held {
@@ -90,11 +90,11 @@ impl<const N: usize> Means<N> {
     }
 }
 
-/// Angular momentum outboard of each joint about it.
+/// Momentum of what each coordinate moves.
 fn outboard_momentum<const N: usize>(vehicle: &Vehicle<N>, situation: &Situation<N>, held: bool) -> SVector<f64, N> {
     let node = &situation.node;
     let outboard = outboard(vehicle, &node.posture, held, situation.base(), &node.rate);
-    SVector::from_fn(|i, _| outboard[i].momentum.angular)
+    SVector::from_fn(|i, _| outboard[i].momentum)
 }
 
 fn payload_momentum<const N: usize>(vehicle: &Vehicle<N>, situation: &Situation<N>) -> Vec2 {

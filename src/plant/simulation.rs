@@ -64,8 +64,8 @@ impl<const N: usize> Simulation for Plant<N> {
         (outputs.thrust, outputs.torque) = (control.x, control.y);
         outputs.transmitted_force = weight + vec2(0.0, vehicle.uav_mass * vehicle.gravity);
         outputs.transmitted_moment = moment;
-        for i in 0..vehicle.links {
-            outputs.joint_torque[i] = node.matrix.outboard_first[i].x * vehicle.gravity;
+        for (effort, outboard) in outputs.effort.iter_mut().zip(&node.matrix.outboard_first) {
+            *effort = outboard.x * vehicle.gravity;
         }
     }
 

@@ -5,8 +5,8 @@ use std::f64::consts::PI;
 use super::THESIS_STEP;
 use crate::autopilot::{Autopilot, AutopilotMode, Gains};
 use crate::parameters::{
-    BaseModel, Counterweight, Discretization, InverseKinematics, Joint, Link, MAX_LINKS, MomentModel, Mount,
-    Parameters, Payload, Resolution, Structure, Support, Uav,
+    Balance, BalanceElement, BaseModel, Counterweight, Discretization, InverseKinematics, Joint, Link, MAX_LINKS,
+    MomentModel, Mount, Parameters, Payload, Resolution, Structure, Support, Uav,
 };
 use crate::reference::{Circle, Leg, Profile, Reference, ReferenceKind};
 
@@ -31,16 +31,22 @@ pub fn default_parameters(structure: Structure) -> Parameters {
         _ => (0.08, -0.12),
     };
     let (gravity, payload_mass, stiffness) = (9.81, 0.5, 1000.0);
+    let uav_mass = match structure.balance {
+        Balance::None => 4.2,
+        Balance::Counterweight => 2.0,
+        Balance::Element => 4.0,
+    };
     let angles = start_angles(links);
     // Where the payload is taken over, its weight is carried by the support, and stays so for an instant.
     let grasp_height = dy - LINK_LENGTH * absolute(&angles[..links]).map(f64::cos).sum::<f64>();
     Parameters {
         gravity,
-        uav: Uav { mass: if structure.counterweight { 2.0 } else { 4.2 }, inertia: 0.4097 },
+        uav: Uav { mass: uav_mass, inertia: 0.4097 },
         mount: Mount { x: 0.0, y: 0.0 },
         links: std::array::from_fn(|_| Link { mass: 1.0, length: LINK_LENGTH, com: 0.065, inertia: 6e-4 }),
         joints: angles.map(|start| Joint { start, rate_limit: 10.0 * PI }),
         counterweight: Counterweight { mass: 2.2, inertia: 1e-4, height: 0.03, start: 0.0 },
+        balance_element: BalanceElement { mass: 0.0, com: 0.1, inertia: 0.01, start: 0.0 },
         autopilot: Autopilot { mode: AutopilotMode::Pid, altitude: PICK_ALTITUDE, roll: PICK_ROLL, sample_time: 0.0 },
         payload: Payload { mass: payload_mass, com: LINK_LENGTH, grasp_time: 1.6 },
         support: Support { stiffness, height: grasp_height + payload_mass * gravity / stiffness },

@@ -4,7 +4,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::error::near;
 use super::{Error, Problem, Scenario, THESIS_STEP, default_parameters};
-use crate::parameters::{Parameters, Structure};
+use crate::parameters::{Balance, Parameters, Structure};
 use crate::variables::{Kind, Variable};
 
 /// Keys beside the parameters, with what each must be.
@@ -14,7 +14,7 @@ const BASED_ON: (&str, &str) = ("based_on", "the name of another scenario, in qu
 const DURATION: (&str, &str) = ("duration", "a number of seconds above 0");
 const STEP: (&str, &str) = ("step", "a number of seconds above 0, at most the duration");
 const LINKS: (&str, &str) = ("structure.links", "a whole number from 1 to 6");
-const BALANCE: (&str, &str) = ("structure.balance", "\"none\" or \"counterweight\"");
+const BALANCE: (&str, &str) = ("structure.balance", "\"none\", \"counterweight\" or \"balance_element\"");
 const KEYS: [(&str, &str); 7] = [ID, TITLE, BASED_ON, DURATION, STEP, LINKS, BALANCE];
 /// The table of all parameters.
 const PARAMETERS: &str = "parameters";
@@ -120,17 +120,16 @@ impl Document<'_> {
         let inherited = base.map(|base| base.structure);
         let links = match self.field(LINKS) {
             None => inherited.ok_or(Error::Missing { key: LINKS.0, expected: LINKS.1 })?.links,
-            Some(field) => field.if_ok(field.count()?, |&links| Structure::new(links, false).is_ok())?,
+            Some(field) => field.if_ok(field.count()?, |&links| Structure::new(links, Balance::None).is_ok())?,
         };
-        let counterweight = match self.field(BALANCE) {
-            None => inherited.is_some_and(|structure| structure.counterweight),
-            Some(field) => match field.text()? {
-                "none" => false,
-                "counterweight" => true,
-                _ => return Err(field.wrong()),
-            },
+        let balance = match self.field(BALANCE) {
+            None => inherited.map_or(Balance::None, |structure| structure.balance),
+            Some(field) => {
+                let name = field.text()?;
+                Balance::ALL.into_iter().find(|balance| balance.name() == name).ok_or_else(|| field.wrong())?
+            }
         };
-        let structure = Structure { links, counterweight };
+        let structure = Structure { links, balance };
         // The numbers of one vehicle mean nothing for another one.
         match (inherited, self.field(LINKS).or(self.field(BALANCE))) {
             (Some(inherited), Some(field)) if inherited != structure => Err(field.entry.refused(Problem::Value {

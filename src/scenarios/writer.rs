@@ -19,8 +19,7 @@ pub enum Extent {
 pub(super) fn write(scenario: &Scenario, extent: Extent) -> String {
     let Scenario { id, title, structure, duration, step, .. } = scenario;
     let [id, title] = [id, title].map(|text| quoted(text));
-    let balance = if structure.counterweight { "counterweight" } else { "none" };
-    let links = structure.links;
+    let (links, balance) = (structure.links, structure.balance.name());
     let mut text = format!(
         "\
 # Names, units and bounds of the parameters are those of the FMUs. What is not here has the start value that it

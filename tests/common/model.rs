@@ -3,6 +3,7 @@
 //! positions; there are no Jacobians and no momentum matrices here.
 
 use nalgebra::{Vector2, Vector3};
+use uam::parameters::Balance;
 use uam::plant::Outputs;
 use uam::{Parameters, Structure};
 
@@ -14,6 +15,7 @@ pub enum Part {
     Uav,
     Link(usize),
     Counterweight,
+    BalanceElement,
     Payload,
 }
 
@@ -28,7 +30,7 @@ pub struct Body {
     pub spin: f64,
 }
 
-/// Generalized coordinates: pose of the UAV, then joints, then counterweight.
+/// Generalized coordinates: pose of the UAV, then joints, then what balances the arm.
 #[derive(Debug, Clone)]
 pub struct Coordinates {
     pub pose: Vector3<f64>,
@@ -58,6 +60,16 @@ impl Model {
         joints
     }
 
+    /// Whether this coordinate is that of a counterweight.
+    pub fn slides(&self, coordinate: usize) -> bool {
+        coordinate == self.structure.links && self.structure.balance == Balance::Counterweight
+    }
+
+    /// The axis about which this coordinate turns.
+    pub fn axis(&self, at: &Coordinates, coordinate: usize) -> Vector2<f64> {
+        if coordinate == self.structure.links { at.pose.xy() } else { self.joints(at)[coordinate] }
+    }
+
     pub fn end_effector(&self, at: &Coordinates) -> Vector2<f64> {
         self.joints(at)[self.structure.links]
     }
@@ -82,6 +94,10 @@ impl Model {
             Part::Uav => at.pose.xy(),
             Part::Link(i) => self.on_link(at, i, self.parameters.links[i].com),
             Part::Counterweight => self.in_uav(at, at.q[self.structure.links], self.parameters.counterweight.height),
+            Part::BalanceElement => {
+                let angle = at.pose.z + at.q[self.structure.links];
+                at.pose.xy() + self.parameters.balance_element.com * Vector2::new(angle.sin(), -angle.cos())
+            }
             Part::Payload => self.payload(at),
         }
     }
@@ -90,8 +106,12 @@ impl Model {
         let p = &self.parameters;
         let mut parts = vec![(Part::Uav, p.uav.mass, p.uav.inertia)];
         parts.extend((0..self.structure.links).map(|i| (Part::Link(i), p.links[i].mass, p.links[i].inertia)));
-        if self.structure.counterweight {
-            parts.push((Part::Counterweight, p.counterweight.mass, p.counterweight.inertia));
+        match self.structure.balance {
+            Balance::None => {}
+            Balance::Counterweight => parts.push((Part::Counterweight, p.counterweight.mass, p.counterweight.inertia)),
+            Balance::Element => {
+                parts.push((Part::BalanceElement, p.balance_element.mass, p.balance_element.inertia));
+            }
         }
         if held {
             parts.push((Part::Payload, p.payload.mass, 0.0));
@@ -109,6 +129,7 @@ impl Model {
             velocity: derivative(|s| self.place(part, &at.moved(speed, s))),
             spin: match part {
                 Part::Link(i) => speed.pose.z + speed.q[..=i].iter().sum::<f64>(),
+                Part::BalanceElement => speed.pose.z + speed.q[self.structure.links],
                 _ => speed.pose.z,
             },
         };
@@ -192,12 +213,13 @@ pub fn weight_moment(bodies: &[Body], gravity: f64, about: Vector2<f64>) -> f64 
 }
 
 impl Part {
-    /// Whether joint `joint`, counted from 0, carries this part.
-    pub fn is_outboard(self, joint: usize) -> bool {
+    /// Whether this coordinate moves this part on the UAV.
+    pub fn is_moved_by(self, coordinate: usize, structure: Structure) -> bool {
         match self {
-            Self::Link(i) => i >= joint,
-            Self::Payload => true,
-            Self::Uav | Self::Counterweight => false,
+            Self::Uav => false,
+            Self::Link(i) => i >= coordinate,
+            Self::Payload => coordinate < structure.links,
+            Self::Counterweight | Self::BalanceElement => coordinate == structure.links,
         }
     }
 }

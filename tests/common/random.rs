@@ -3,7 +3,7 @@
 use nalgebra::Vector2;
 use proptest::prelude::*;
 use uam::autopilot::{AutopilotMode, Gains};
-use uam::parameters::Link;
+use uam::parameters::{Balance, Link};
 use uam::plant::Inputs;
 use uam::scenarios::default_parameters;
 use uam::{Parameters, Structure};
@@ -37,8 +37,12 @@ impl Random {
         Vector2::new(self.about_zero(size), self.about_zero(size))
     }
 
+    pub fn balance(&mut self) -> Balance {
+        Balance::ALL[(self.between(0.0, 3.0) as usize).min(2)]
+    }
+
     pub fn structure(&mut self) -> Structure {
-        Structure::new((self.between(1.0, 7.0) as usize).min(6), self.coin()).unwrap()
+        Structure::new((self.between(1.0, 7.0) as usize).min(6), self.balance()).unwrap()
     }
 
     /// A vehicle of the size of the thesis' with nothing symmetric about it; no support.
@@ -59,6 +63,10 @@ impl Random {
         p.counterweight.inertia = self.between(1e-4, 1e-2);
         p.counterweight.height = self.about_zero(0.1);
         p.counterweight.start = self.about_zero(0.2);
+        p.balance_element.mass = self.between(0.5, 2.5);
+        p.balance_element.inertia = self.between(1e-4, 1e-2);
+        p.balance_element.com = self.about_zero(0.2);
+        p.balance_element.start = self.about_zero(3.0);
         p.payload.mass = self.between(0.1, 1.0);
         p.payload.com = self.between(0.0, 0.3);
         p.support.stiffness = 0.0;
@@ -88,13 +96,13 @@ impl Random {
         inputs
     }
 
-    /// Other rates; the counterweight's fit its travel.
+    /// Other rates; a counterweight's fit its travel.
     pub fn new_rates(&mut self, structure: Structure, inputs: &mut Inputs) {
-        for rate in &mut inputs.rate_command[..structure.links] {
+        for rate in &mut inputs.rate_command[..structure.coordinates()] {
             *rate = self.about_zero(2.0);
         }
-        if structure.counterweight {
-            inputs.rate_command[structure.links] = self.about_zero(0.3);
+        if structure.balance == Balance::Counterweight {
+            inputs.rate_command[structure.links] *= 0.15;
         }
     }
 

@@ -168,6 +168,11 @@ fn uav(pose: &Pose, window: Window) -> Markup {
             @let corner = window.px(counterweight + vec2(-0.03, 0.02));
             rect x=(corner.x) y=(corner.y) width=(SCALE * 0.06) height=(SCALE * 0.04) fill="#c8a000" {}
         }
+        @if let Some(element) = pose.balance_element {
+            @let end = window.px(element);
+            polyline points=(window.path([pose.base, element])) stroke="#c8a000" stroke-width="4" {}
+            circle cx=(end.x) cy=(end.y) r="6" fill="#c8a000" {}
+        }
     }
 }
 

@@ -1,6 +1,7 @@
 //! The figures of a report: what is drawn, and how to read it.
 
 use maud::{Markup, PreEscaped, html};
+use uam::parameters::Balance;
 
 use super::chart::{Curve, Panel, Scale};
 use super::{Error, Series, arm};
@@ -114,8 +115,14 @@ fn joints(series: &[Series<'_>]) -> Result<Figure, Error> {
     let mut panels: Vec<Panel> = (1..=structure.links)
         .map(|n| panel(series, &format!("joint {n} [°]"), &format!("joint[{n}].position"), degrees, None))
         .collect();
-    if structure.counterweight {
-        panels.push(panel(series, "counterweight [mm]", "counterweight.position", 1e3, None));
+    match structure.balance {
+        Balance::None => {}
+        Balance::Counterweight => {
+            panels.push(panel(series, "counterweight [mm]", "counterweight.position", 1e3, None));
+        }
+        Balance::Element => {
+            panels.push(panel(series, "balance element [°]", "balance_element.position", degrees, None));
+        }
     }
     Ok(Figure {
         topic: Topic::Joints,

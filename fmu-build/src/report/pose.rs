@@ -1,5 +1,6 @@
 //! Where everything is at one row of a recording, for drawings.
 
+use uam::parameters::Balance;
 use uam::planar::{Turn, Vec2, vec2};
 use uam::scenarios::Scenario;
 
@@ -16,6 +17,8 @@ pub struct Pose {
     pub joints: Vec<Vec2>,
     /// The counterweight, if there is one.
     pub counterweight: Option<Vec2>,
+    /// The centre of mass of the balance element, if there is one; it turns about that of the UAV.
+    pub balance_element: Option<Vec2>,
     /// The place of a held payload.
     pub hand: Vec2,
     /// Whether it is held.
@@ -40,11 +43,20 @@ impl Pose {
             hand = from + parameters.payload.com * along;
             joints.push(from + link.length * along);
         }
-        let counterweight = scenario
-            .structure
-            .counterweight
-            .then(|| base + body.apply(vec2(value("counterweight.position"), parameters.counterweight.height)));
-        Self { base, roll, joints, counterweight, hand, attached: value("payload.attached") > 0.5 }
+        let (mut counterweight, mut balance_element) = (None, None);
+        match scenario.structure.balance {
+            Balance::None => {}
+            Balance::Counterweight => {
+                let place = vec2(value("counterweight.position"), parameters.counterweight.height);
+                counterweight = Some(base + body.apply(place));
+            }
+            Balance::Element => {
+                let along = Turn::by(roll + value("balance_element.position")).down();
+                balance_element = Some(base + parameters.balance_element.com * along);
+            }
+        }
+        let attached = value("payload.attached") > 0.5;
+        Self { base, roll, joints, counterweight, balance_element, hand, attached }
     }
 
     /// Where the payload is taken over, if it ever is.

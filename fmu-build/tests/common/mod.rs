@@ -8,9 +8,10 @@ use std::sync::LazyLock;
 use fmu_build::coupling::Pair;
 use fmu_build::{BuildOptions, Built, build};
 use uam::Structure;
+use uam::parameters::Balance;
 
 static BUILT: LazyLock<Built> = LazyLock::new(|| built(Structure::DEFAULT));
-static TWO_LINKS: LazyLock<Built> = LazyLock::new(|| built(Structure::new(2, false).unwrap()));
+static TWO_LINKS: LazyLock<Built> = LazyLock::new(|| built(Structure::new(2, Balance::None).unwrap()));
 
 fn built(structure: Structure) -> Built {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(env!("CARGO_CRATE_NAME"));

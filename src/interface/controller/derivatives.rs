@@ -11,6 +11,7 @@ use crate::variables::Derivative::{self, At, Constant};
 pub const ALL: &[(&str, Derivative<Data>)] = &[
     ("joint.rate_command", HELD),
     ("counterweight.rate_command", HELD),
+    ("balance_element.rate_command", HELD),
     ("reference.x", At(|d, _| &mut d.outputs.reference_velocity.x)),
     ("reference.y", At(|d, _| &mut d.outputs.reference_velocity.y)),
     ("reference.vx", At(|d, _| &mut d.rates.reference_velocity.x)),
@@ -25,6 +26,7 @@ pub const ALL: &[(&str, Derivative<Data>)] = &[
     ("predicted.end_effector.y", At(|d, _| &mut d.rates.predicted_end_effector.y)),
     ("predicted.joint.position", At(|d, i| &mut d.rates.predicted_position[i])),
     ("predicted.counterweight.position", At(|d, i| &mut d.rates.predicted_position[i])),
+    ("predicted.balance_element.position", At(|d, i| &mut d.rates.predicted_position[i])),
     ("ik.min_singular_value", HELD),
     ("ik.velocity_residual", HELD),
     ("ik.moment_residual", HELD),

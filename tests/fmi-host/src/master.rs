@@ -33,6 +33,8 @@ pub struct Track {
     pub error: Vec<f64>,
     /// Mean moment of the arm on the UAV \[N m\].
     pub moment: Vec<f64>,
+    /// Whether the payload is held, and the force of the support on it \[N\].
+    pub payload: Vec<(bool, f64)>,
 }
 
 impl Track {
@@ -121,4 +123,5 @@ fn record(track: &mut Track, time: f64, controller: &mut Slave<'_>, plant: &mut 
     track.time.push(time);
     track.pose.push(["base.x", "base.y", "base.roll"].map(|name| plant.get(name)));
     track.moment.push(plant.get("transmitted.moment"));
+    track.payload.push((plant.get("payload.attached") != 0.0, plant.get("support.force")));
 }
