@@ -22,15 +22,16 @@ class Structure:
     """What is chosen when FMUs are built."""
 
     links: int
-    counterweight: bool = False
+    balance: str = "none"  # or "counterweight", "balance_element"
 
     def __str__(self) -> str:
-        return f"{self.links}{'c' if self.counterweight else ''}"
+        return f"{self.links}{'' if self.balance == 'none' else '-' + self.balance}"
 
 
 DEFAULT = Structure(3)
-ALL = [Structure(links, counterweight) for links in range(1, 7) for counterweight in (False, True)]
-SOME = [DEFAULT, Structure(2, counterweight=True), Structure(1), Structure(6)]
+BALANCES = ("none", "counterweight", "balance_element")
+ALL = [Structure(links, balance) for links in range(1, 7) for balance in BALANCES]
+SOME = [DEFAULT, Structure(2, "counterweight"), Structure(1, "balance_element"), Structure(6)]
 FULL = bool(os.environ.get("UAM_FULL"))
 
 
@@ -54,8 +55,9 @@ def program(*arguments: str) -> str:
 def build(structure: Structure) -> Pair:
     """The FMUs of a structure."""
     folder = TARGET / "fmus" / str(structure)
-    counterweight = ["--counterweight"] if structure.counterweight else []
-    program("build", "--links", str(structure.links), *counterweight, "--out", str(folder))
+    name = structure.balance.replace("_", "-")
+    balance = [] if name == "none" else [f"--{name}"]
+    program("build", "--links", str(structure.links), *balance, "--out", str(folder))
     return Pair(folder / "uam_controller.fmu", folder / "uam_plant.fmu")
 
 

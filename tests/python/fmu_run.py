@@ -12,13 +12,14 @@ from fmpy import extract, read_model_description
 from fmpy.fmi2 import FMU2Slave
 
 from oracle_data import Array
-from random_cases import Case, Value, fmi_inputs, fmi_parameters
+from random_cases import Case, Value, fmi_inputs, fmi_parameters, fmi_slopes
 
 
 class _Names:
     """Sets and gets variables of an FMU by name, whatever their type."""
 
     def __init__(self, slave: FMU2Slave, variables: Iterable[Any]) -> None:
+        self._slave = slave
         self._variables = {variable.name: variable for variable in variables}
         self._set = {
             "Real": (slave.setReal, float),
@@ -34,16 +35,16 @@ class _Names:
         }
 
     def set(self, values: Mapping[str, Value]) -> None:
-        """Set values; what concerns the counterweight is left out where the FMU has none."""
-        sliding = "counterweight.mass" in self._variables
         for name, value in values.items():
-            if name.startswith("counterweight.") and not sliding:
-                if value != 0 and not name.endswith(("height", "start")):
-                    raise ValueError(f"the FMU has no counterweight: {name}")
-                continue
             variable = self._variables[name]
             setter, kind = self._set[variable.type]
             setter([variable.valueReference], [kind(value)])
+
+    def set_slopes(self, slopes: Mapping[str, float]) -> None:
+        """Set first derivatives of inputs for the coming step."""
+        for name, slope in slopes.items():
+            reference = self._variables[name].valueReference
+            self._slave.setRealInputDerivatives([reference], [1], [slope])
 
     def get(self, name: str) -> float:
         variable = self._variables[name]
@@ -76,11 +77,12 @@ def fmu_table(fmu: str | Path, case: Case, names: Iterable[str] | None = None) -
             variables.set(fmi_parameters(case))
             slave.setupExperiment(startTime=0.0)
             slave.enterInitializationMode()
-            variables.set(fmi_inputs(case.steps[0][1]))
+            variables.set(fmi_inputs(case, case.steps[0][1]))
             slave.exitInitializationMode()
             time = 0.0
             for step, inputs in case.steps:
-                variables.set(fmi_inputs(inputs))
+                variables.set(fmi_inputs(case, inputs))
+                variables.set_slopes(fmi_slopes(inputs))
                 slave.doStep(currentCommunicationPoint=time, communicationStepSize=step)
                 time += step
                 for name in names:

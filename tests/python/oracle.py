@@ -1,12 +1,13 @@
 """Reference integration of a planar aerial manipulator (test oracle).
 
 A UAV moves in a vertical plane (x right, y up, angles counter-clockwise) and carries an arm of
-revolute links, optionally a sliding counterweight and a grasped point mass.  Joint and
-counterweight rates are imposed; the base (x, y, roll) moves freely under thrust and torque.
+revolute links, optionally a sliding counterweight or a turning balance element, and a grasped
+point mass.  Rates are imposed, except on joints that are driven by a torque; the base (x, y, roll)
+moves freely under thrust and torque.
 
 Only the Lagrangian is written down by hand.  Momenta, inertia matrix and generalised forces come
-from automatic differentiation (CasADi).  The base is integrated in its conjugate momenta, which
-stay continuous when imposed rates jump.  All quantities are in SI units.
+from automatic differentiation (CasADi).  Base and driven joints are integrated in their conjugate
+momenta, which stay continuous when imposed rates jump.  All quantities are in SI units.
 """
 
 from __future__ import annotations
@@ -20,17 +21,28 @@ import casadi as ca
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from oracle_data import Array, Autopilot, Payload, StepInputs, StepOutput, Support, Vehicle
+from oracle_data import (
+    Array,
+    Autopilot,
+    Counterweight,
+    Payload,
+    StepInputs,
+    StepOutput,
+    Support,
+    Vehicle,
+)
 
 
-def _layout(n: int, sliding: bool) -> dict[str, int]:
-    """Names and sizes in the flat parameter vector of the compiled functions."""
-    m = n + sliding
+def _layout(n: int, m: int) -> dict[str, int]:
+    """Names and sizes in the flat parameter vector of the compiled functions.
+
+    There are n joints and m coordinates.
+    """
     return {
         "uav": 2,
         "mount": 2,
         "links": 4 * n,
-        "counterweight": 3,
+        "balance": 3,
         "payload": 2,
         "gravity": 1,
         "support": 2,
@@ -43,6 +55,8 @@ def _layout(n: int, sliding: bool) -> dict[str, int]:
         "position": m,
         "rate": m,
         "acceleration": m,
+        "torque": m,
+        "torque_slope": m,
     }
 
 
@@ -78,15 +92,18 @@ class _Model:
 
 
 @cache
-def _model(n: int, sliding: bool, held: bool, ideal: bool) -> _Model:
+def _model(
+    n: int, balance: type | None, driven: tuple[int, ...], held: bool, ideal: bool
+) -> _Model:
     """Derive and compile the equations of one structure from its Lagrangian.
 
     State z: base (x, y, roll), conjugate base momenta, integrals of the two control errors,
-    impulse of thrust (x, y, moment), integrals of dL/dq + Q for each imposed coordinate.
+    impulse of thrust (x, y, moment), integrals of dL/dq + Q for each coordinate, positions of the
+    driven joints, their conjugate momenta.
     In ideal mode the y and roll momenta in z leave out the reactions (thrust, torque).
     """
-    m = n + sliding
-    sizes = _layout(n, sliding)
+    m = n + (balance is not None)
+    sizes = _layout(n, m)
     p = ca.SX.sym("p", sum(sizes.values()))
     offsets = np.cumsum([0, *sizes.values()])
     par = {name: p[int(a) : int(b)] for name, a, b in zip(sizes, offsets, offsets[1:])}
@@ -108,9 +125,14 @@ def _model(n: int, sliding: bool, held: bool, ideal: bool) -> _Model:
         load = joint + par["payload"][1] * along
         joint = joint + length * along
     tip = joint
-    if sliding:
-        mass, inertia, height = ca.vertsplit(par["counterweight"])
-        bodies.append((mass, inertia, base + turn @ ca.vertcat(q[3 + n], height), phi))
+    if balance is not None:
+        mass, inertia, distance = ca.vertsplit(par["balance"])
+        own = q[3 + n]
+        if balance is Counterweight:
+            bodies.append((mass, inertia, base + turn @ ca.vertcat(own, distance), phi))
+        else:
+            down = ca.vertcat(ca.sin(phi + own), -ca.cos(phi + own))
+            bodies.append((mass, inertia, base + distance * down, phi + own))
     if held:
         bodies.append((par["payload"][0], ca.SX(0), load, angle))
 
@@ -148,18 +170,30 @@ def _model(n: int, sliding: bool, held: bool, ideal: bool) -> _Model:
     )
     gaps = ca.Function("gaps", [q, qd, qdd, p], [gap, gap_rate, gap_acceleration])
 
-    z, tau = ca.SX.sym("z", 11 + m), ca.SX.sym("tau")
-    imposed = par["position"] + par["rate"] * tau + par["acceleration"] * tau**2 / 2
-    imposed_rate = par["rate"] + par["acceleration"] * tau
-    position = ca.vertcat(z[:3], imposed)
+    k, tau = len(driven), ca.SX.sym("tau")
+    z = ca.SX.sym("z", 11 + m + 2 * k)
+    base_free = [0] if ideal else [0, 1, 2]
+    joints = [3 + j for j in driven]
+    free = base_free + joints
+    fixed = [i for i in range(3, 3 + m) if i not in joints]
+    torque = (par["torque"] + par["torque_slope"] * tau)[list(driven)]
+
+    position = ca.SX(ca.vertcat(z[:3], par["position"]))
+    position[3:] += par["rate"] * tau + par["acceleration"] * tau**2 / 2
+    if driven:
+        position[joints] = z[11 + m : 11 + m + k]
     matrix = mechanics(position, ca.SX.zeros(3 + m), p)[1]
-    free = [0] if ideal else [0, 1, 2]
-    hold = ca.SX.zeros(3 - len(free))
+    z_momenta = ca.vertcat(z[3 : 3 + len(base_free)], z[11 + m + k :])
 
-    def base_solve(right_hand_side: ca.SX) -> ca.SX:
-        return ca.vertcat(ca.solve(matrix[free, free], right_hand_side[free]), hold)
+    def completed(imposed: ca.SX, right_hand_side: ca.SX) -> ca.SX:
+        """The imposed entries, and the free ones that follow from their momenta or forces."""
+        whole = ca.SX.zeros(3 + m)
+        if fixed:
+            whole[fixed] = imposed[[i - 3 for i in fixed]]
+        whole[free] = ca.solve(matrix[free, free], right_hand_side - (matrix @ whole)[free])
+        return whole
 
-    velocity = ca.vertcat(base_solve(z[3:6] - matrix[:3, 3:] @ imposed_rate), imposed_rate)
+    velocity = completed(par["rate"] + par["acceleration"] * tau, z_momenta)
     p_now, _, f_now, drift = mechanics(position, velocity, p)
     errors = z[[1, 2]] - par["references"]
     kp, ki, kd = (par["gains"][[i, i + 3]] for i in range(3))
@@ -167,11 +201,14 @@ def _model(n: int, sliding: bool, held: bool, ideal: bool) -> _Model:
     if ideal:
         control = ca.SX.zeros(2)
     thrust = ca.vertcat(-ca.sin(z[2]) * control[0], ca.cos(z[2]) * control[0], control[1])
-    push = f_now[:3] + thrust
-    acceleration = base_solve(push - drift[:3] - matrix[:3, 3:] @ par["acceleration"])
-    derivative = ca.vertcat(velocity[:3], push, errors, thrust, f_now[3:])
-    report = [velocity, acceleration, p_now, control, *observed(position, velocity, p)]
-    full_acceleration = ca.vertcat(acceleration, par["acceleration"])
+    push = ca.vertcat(f_now[:3] + thrust, f_now[3:])
+    if driven:
+        push[joints] += torque
+    acceleration = completed(par["acceleration"], (push - drift)[free])
+    derivative = ca.vertcat(
+        *(velocity[:3], push[:3], errors, thrust, f_now[3:]), *(velocity[joints], push[joints])
+    )
+    report = [velocity, acceleration, p_now, control, *observed(position, velocity, p), position]
 
     def compiled(name: str, arguments: list[ca.SX], results: Any) -> _Fast:
         dense = [ca.densify(result) for result in results]
@@ -180,7 +217,7 @@ def _model(n: int, sliding: bool, held: bool, ideal: bool) -> _Model:
     return _Model(
         derivative=compiled("derivative", [z, tau, p], [derivative]),
         report=compiled("report", [z, tau, p], report),
-        gap=compiled("gap", [z, tau, p], gaps(position, velocity, full_acceleration, p)),
+        gap=compiled("gap", [z, tau, p], gaps(position, velocity, acceleration, p)),
         momenta=compiled("momenta", [q, qd, p], [momenta]),
     )
 
@@ -280,9 +317,10 @@ def simulate(
     """
     if autopilot.mode not in ("pid", "sampled", "external", "ideal"):
         raise ValueError(f"unknown autopilot mode {autopilot.mode!r}")
-    n, slider = len(vehicle.links), vehicle.counterweight
-    sliding, ideal, sampled = bool(slider), autopilot.mode == "ideal", autopilot.mode == "sampled"
-    sizes = _layout(n, sliding)
+    n, balance = len(vehicle.links), vehicle.balance
+    ideal, sampled = autopilot.mode == "ideal", autopilot.mode == "sampled"
+    m = n + (balance is not None)
+    sizes = _layout(n, m)
     offsets = dict(zip(sizes, np.cumsum([0, *sizes.values()])))
     control_at = slice(offsets["constant_control"], offsets["constant_control"] + 2)
     gains = np.array([[g.kp, g.ki, g.kd] for g in (autopilot.altitude, autopilot.roll)])
@@ -290,20 +328,22 @@ def simulate(
     inertia = np.array([vehicle.uav_mass, vehicle.uav_mass, vehicle.uav_inertia])
     weight = np.array([0.0, -vehicle.uav_mass * gravity, 0.0])
 
-    pose, velocity, integrals = np.zeros(3), np.zeros(3 + n + sliding), np.zeros(2)
-    imposed = np.array([*q0, *([slider.start] if slider else [])], dtype=float)
+    body: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    if balance:
+        distance = balance.height if isinstance(balance, Counterweight) else balance.com
+        body = balance.mass, balance.inertia, distance
+
+    def with_balance(joints: Sequence[float], own: float) -> Array:
+        return np.array([*(joints or [0.0] * n), *([own] if balance else [])], dtype=float)
+
+    pose, velocity, integrals = np.zeros(3), np.zeros(3 + m), np.zeros(2)
+    coordinates = with_balance(q0, balance.start if balance else 0.0)
     held, time, samples, sums, control = False, 0.0, 0, np.zeros(2), np.zeros(2)
     outputs: list[StepOutput] = []
 
     for duration, given in steps:
         u = given if isinstance(given, StepInputs) else StepInputs(**given)
-        rates = np.array([*u.joint_rates, *([u.counterweight_rate] if slider else [])])
-        accelerations = np.array(
-            [
-                *(u.joint_accelerations or [0.0] * n),
-                *([u.counterweight_acceleration] if slider else []),
-            ]
-        )
+        driven = tuple(j for j, torque in enumerate(u.joint_torques) if torque is not None)
         references = np.array([u.altitude_reference, u.roll_reference])
         feedforward = np.array([vehicle.mass * gravity + u.thrust_feedforward, 0.0])
         constant = {"pid": feedforward, "external": (u.thrust_command, u.torque_command)}
@@ -312,7 +352,7 @@ def simulate(
             "uav": (vehicle.uav_mass, vehicle.uav_inertia),
             "mount": (vehicle.mount_x, vehicle.mount_y),
             "links": [x for k in vehicle.links for x in (k.mass, k.length, k.com, k.inertia)],
-            "counterweight": (slider.mass, slider.inertia, slider.height) if slider else (0, 0, 0),
+            "balance": body,
             "payload": (payload.mass, payload.com) if payload else (0, 0),
             "gravity": [gravity],
             "support": (support.stiffness, support.height) if support else (0, 0),
@@ -322,20 +362,26 @@ def simulate(
             "constant_control": constant.get(autopilot.mode, np.zeros(2)),
             "base_wrench": base_wrench,
             "end_wrench": (*u.end_effector_force, u.end_effector_torque),
-            "position": imposed,
-            "rate": rates,
-            "acceleration": accelerations,
+            "position": coordinates,
+            "rate": with_balance(u.joint_rates, u.balance_rate),
+            "acceleration": with_balance(u.joint_accelerations, u.balance_acceleration),
+            "torque": with_balance([torque or 0.0 for torque in u.joint_torques], 0.0),
+            "torque_slope": with_balance(u.joint_torque_slopes, 0.0),
         }
         p = np.concatenate([np.asarray(values[name], dtype=float) for name in sizes])
-        model = _model(n, sliding, u.grasp, ideal)
+        structure = n, type(balance) if balance else None, driven
+        model = _model(*structure, u.grasp, ideal)
         supported = u.grasp and support is not None and support.stiffness > 0
         integrator = _Integrator(model, p, offsets["contact"], supported, rtol, atol)
 
         # Before the jump.  A payload being taken over is at rest, one being let go keeps its own
         # momentum: in both cases only a payload held before and after adds to the momenta.
-        through = _model(n, sliding, held and u.grasp, ideal)
-        before = through.momenta(np.concatenate([pose, imposed]), velocity, p)[0]
-        z = np.concatenate([pose, before[:3], integrals, np.zeros(3 + n + sliding)])
+        through = _model(*structure, held and u.grasp, ideal)
+        before = through.momenta(np.concatenate([pose, coordinates]), velocity, p)[0]
+        own = list(driven)
+        z = np.concatenate(
+            [pose, before[:3], integrals, np.zeros(3 + m), coordinates[own], before[3:][own]]
+        )
 
         tau, measured_rates = 0.0, velocity[1:3]
         while tau < duration:
@@ -367,6 +413,7 @@ def simulate(
             support_force,
             kinetic,
             potential,
+            place,
         ) = model.report(z, duration, p)
         thrust_impulse = z[8:11]
         if ideal:
@@ -377,14 +424,14 @@ def simulate(
         )
         time += duration
         pose, velocity, integrals, held = z[:3], now, z[6:8], u.grasp
-        imposed = imposed + rates * duration + accelerations * duration**2 / 2
+        coordinates = place[3:]
         outputs.append(
             StepOutput(
                 time,
                 pose,
                 now[:3],
-                acceleration,
-                imposed,
+                acceleration[:3],
+                coordinates,
                 now[3:],
                 tip,
                 tip_velocity,
@@ -396,7 +443,7 @@ def simulate(
                 support_force[0] + 0.0,
                 held,
                 transmitted,
-                (momenta[3:] - before[3:] - z[11:]) / duration,
+                (momenta[3:] - before[3:] - z[11 : 11 + m]) / duration,
                 kinetic[0],
                 potential[0],
             )

@@ -31,21 +31,31 @@ class Counterweight:
 
 
 @dataclass(frozen=True)
+class BalanceElement:
+    """Body turning about the UAV's centre of mass, at angle 0 hanging below it in the UAV frame."""
+
+    mass: float
+    inertia: float  # about its own centre of mass
+    com: float
+    start: float = 0.0
+
+
+@dataclass(frozen=True)
 class Vehicle:
-    """UAV (frame origin at its centre of mass), first joint's place on it, arm, counterweight."""
+    """UAV (frame origin at its centre of mass), first joint's place, arm, what balances it."""
 
     uav_mass: float
     uav_inertia: float
     mount_x: float
     mount_y: float
     links: tuple[Link, ...]
-    counterweight: Counterweight | None = None
+    balance: Counterweight | BalanceElement | None = None
 
     @property
     def mass(self) -> float:
         """Total mass without payload."""
-        sliding = self.counterweight.mass if self.counterweight else 0.0
-        return self.uav_mass + sum(link.mass for link in self.links) + sliding
+        balance = self.balance.mass if self.balance else 0.0
+        return self.uav_mass + sum(link.mass for link in self.links) + balance
 
 
 @dataclass(frozen=True)
@@ -83,12 +93,15 @@ class Support:
 
 @dataclass(frozen=True)
 class StepInputs:
-    """Inputs held during one communication step; rates are `rate + acceleration * (t - t_k)`."""
+    """Inputs held during one communication step; rates are `rate + acceleration * (t - t_k)`.
+
+    Joints with a torque have that torque instead of a rate; torques change by their slopes.
+    """
 
     joint_rates: tuple[float, ...]
     joint_accelerations: tuple[float, ...] = ()
-    counterweight_rate: float = 0.0
-    counterweight_acceleration: float = 0.0
+    balance_rate: float = 0.0
+    balance_acceleration: float = 0.0
     grasp: bool = False
     altitude_reference: float = 0.0
     roll_reference: float = 0.0
@@ -99,23 +112,25 @@ class StepInputs:
     base_torque: float = 0.0
     end_effector_force: tuple[float, float] = (0.0, 0.0)
     end_effector_torque: float = 0.0
+    joint_torques: tuple[float | None, ...] = ()
+    joint_torque_slopes: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True)
 class StepOutput:
     """Left limits at the end of a step, triples being (x, y, roll).
 
-    Imposed coordinates are the joints, then the counterweight.  `transmitted` (force and moment
-    about the UAV's centre of mass which everything carried exerts on the UAV), `motors` and, in
-    ideal mode, thrust and torque are means over the step, with the impulses at its start.
+    Coordinates are the joints, then what balances the arm.  `transmitted` (force and moment about
+    the UAV's centre of mass which everything carried exerts on the UAV), `motors` and, in ideal
+    mode, thrust and torque are means over the step, with the impulses at its start.
     """
 
     time: float
     pose: Array
     velocity: Array
     acceleration: Array
-    imposed: Array
-    imposed_rates: Array
+    coordinates: Array
+    rates: Array
     end_effector: Array
     end_effector_velocity: Array
     thrust: float

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from oracle import simulate
 from oracle_data import (
     Array,
     Autopilot,
+    BalanceElement,
     Counterweight,
     Gains,
     Link,
@@ -27,6 +28,7 @@ STIFF_ROLL_GAINS = Gains(600.0, 500.0, 30.0)
 MODES = ("pid", "sampled", "external", "ideal")
 FMI_MODES = {"pid": 1, "sampled": 1, "ideal": 2, "external": 3}
 PAYLOADS = ("none", "free", "support")
+BALANCES = ("none", "counterweight", "balance_element")
 
 Value = float | int | bool
 
@@ -49,20 +51,25 @@ class Case:
         return self.support is not None
 
 
-def random_vehicle(random: np.random.Generator, n: int, sliding: bool) -> Vehicle:
+def random_vehicle(random: np.random.Generator, n: int, kind: str) -> Vehicle:
     """Typical values in one case of three, else values spread around them."""
     u = random.uniform
     mount = u(-0.08, 0.08), u(-0.1, 0.05)
-    slider = None
-    if sliding:
-        slider = Counterweight(u(0.3, 1.5), u(1e-3, 5e-3), u(-0.1, 0.1), u(-0.05, 0.05))
+    balance: Counterweight | BalanceElement | None = None
+    if kind == "counterweight":
+        balance = Counterweight(u(0.3, 1.5), u(1e-3, 5e-3), u(-0.1, 0.1), u(-0.05, 0.05))
+    elif kind == "balance_element":
+        disc = random.random() < 1 / 3
+        balance = BalanceElement(
+            0.0 if disc else u(0.3, 1.5), u(1e-3, 1e-2), u(-0.1, 0.2), u(-3, 3)
+        )
     if random.random() < 1 / 3:
-        return Vehicle(4.2, 0.4097, *mount, (TYPICAL_LINK,) * n, slider)
+        return Vehicle(4.2, 0.4097, *mount, (TYPICAL_LINK,) * n, balance)
     links = []
     for _ in range(n):
         mass, length = u(0.2, 1.2), u(0.08, 0.25)
         links.append(Link(mass, length, length * u(0.2, 0.8), mass * length**2 / 12 * u(0.5, 1.5)))
-    return Vehicle(u(2.5, 6.0), u(0.2, 0.6), *mount, tuple(links), slider)
+    return Vehicle(u(2.5, 6.0), u(0.2, 0.6), *mount, tuple(links), balance)
 
 
 def random_motion(
@@ -107,6 +114,21 @@ def random_levels(random: np.random.Generator, count: int, top: float) -> Array:
     return levels
 
 
+def random_torques(
+    random: np.random.Generator, count: int, n: int
+) -> tuple[list[Array | None], list[Array | None]]:
+    """Torques, and their slopes, of one joint at least; some turn freely."""
+    torques: list[Array | None] = []
+    slopes: list[Array | None] = []
+    always = int(random.integers(n))
+    for i in range(n):
+        driven = i == always or random.random() < 0.4
+        free = random.random() < 0.3
+        torques.append(random_levels(random, count, 0.0 if free else 0.3) if driven else None)
+        slopes.append(random_levels(random, count, 0.0 if free else 5.0) if driven else None)
+    return torques, slopes
+
+
 def random_grasp(random: np.random.Generator, count: int) -> list[bool]:
     """Held from the start or taken over later; mostly let go again, sometimes twice."""
     changes = sorted(random.choice(np.arange(1, count), size=4, replace=False))
@@ -127,23 +149,24 @@ def random_case(
     seed: int,
     *,
     links: int | None = None,
-    counterweight: bool | None = None,
+    balance: str | None = None,
     mode: str | None = None,
     payload: str | None = None,
     duration: float = 2.0,
+    driven: bool = False,
 ) -> Case:
     """Random case; what is given is kept, the rest follows from the seed.
 
-    `mode` is one of MODES, `payload` one of PAYLOADS.
+    `balance` is one of BALANCES, `mode` one of MODES, `payload` one of PAYLOADS; `driven`: some
+    joints are driven by torques.
     """
     random = np.random.default_rng(seed)
     n = int(random.integers(1, 7))
     n = n if links is None else links
-    sliding = bool(random.random() < 0.5)
-    sliding = sliding if counterweight is None else counterweight
+    balance = balance or BALANCES[int(random.integers(3))]
     mode = mode or MODES[seed % len(MODES)]
     payload = payload or PAYLOADS[seed // len(MODES) % len(PAYLOADS)]
-    vehicle = random_vehicle(random, n, sliding)
+    vehicle = random_vehicle(random, n, balance)
     step = float(random.choice([0.01, 0.01, 0.01, 0.005, 0.02]))
     count = round(duration / step)
 
@@ -162,8 +185,9 @@ def random_case(
     accelerated = bool(random.random() < 0.5)
     top_rate = random.uniform(0.5, 2.0)
     joints = [random_motion(random, count, step, q, top_rate, 1.2, accelerated) for q in start]
-    slide_start = vehicle.counterweight.start if vehicle.counterweight else 0.0
-    slide = random_motion(random, count, step, slide_start, 0.3, 0.1, accelerated)
+    balance_start = vehicle.balance.start if vehicle.balance else 0.0
+    reach = (0.3, 0.1) if balance == "counterweight" else (2.0, 4.0)
+    moved = random_motion(random, count, step, balance_start, *reach, accelerated)
     grasp = random_grasp(random, count) if payload != "none" else [False] * count
     load = None
     support = None
@@ -188,6 +212,7 @@ def random_case(
     torque = levels(0.3) if open_loop else np.zeros(count)
     altitude, roll, feedforward = levels(0.1), levels(0.1), levels(2.0)
     forces = [disturbed * levels(top) for top in (2.0, 2.0, 0.2, 1.5, 1.5, 0.1)]
+    torques, torque_slopes = random_torques(random, count, n) if driven else ([], [])
     steps = []
     for k in range(count):
         fx, fy, torque_on_base, tip_x, tip_y, tip_torque = (float(f[k]) for f in forces)
@@ -197,8 +222,14 @@ def random_case(
                 StepInputs(
                     joint_rates=tuple(float(joint[0][k]) for joint in joints),
                     joint_accelerations=tuple(float(joint[1][k]) for joint in joints),
-                    counterweight_rate=float(slide[0][k]) if sliding else 0.0,
-                    counterweight_acceleration=float(slide[1][k]) if sliding else 0.0,
+                    joint_torques=tuple(
+                        None if torque is None else float(torque[k]) for torque in torques
+                    ),
+                    joint_torque_slopes=tuple(
+                        0.0 if slope is None else float(slope[k]) for slope in torque_slopes
+                    ),
+                    balance_rate=float(moved[0][k]) if vehicle.balance else 0.0,
+                    balance_acceleration=float(moved[1][k]) if vehicle.balance else 0.0,
                     grasp=grasp[k],
                     altitude_reference=float(altitude[k]),
                     roll_reference=float(roll[k]),
@@ -212,26 +243,21 @@ def random_case(
                 ),
             )
         )
-    name = f"{seed}-{mode}-{n}{'c' if sliding else ''}-{payload}"
+    name = f"{seed}-{mode}-{n}-{balance}-{payload}{'-driven' if driven else ''}"
     return Case(
         name, vehicle, pilot, load, support, gravity, tuple(map(float, start)), tuple(steps)
     )
 
 
 def fmi_parameters(case: Case) -> dict[str, Value]:
-    """Parameters by FMI variable name; an absent counterweight is massless."""
+    """Parameters by FMI variable name."""
     v, pilot = case.vehicle, case.autopilot
-    slider = v.counterweight or Counterweight(0.0, 0.0, 0.0, 0.0)
     values: dict[str, Value] = {
         "gravity": case.gravity,
         "uav.mass": v.uav_mass,
         "uav.inertia": v.uav_inertia,
         "mount.x": v.mount_x,
         "mount.y": v.mount_y,
-        "counterweight.mass": slider.mass,
-        "counterweight.inertia": slider.inertia,
-        "counterweight.height": slider.height,
-        "counterweight.start": slider.start,
         "autopilot.mode": FMI_MODES[pilot.mode],
         "autopilot.sample_time": pilot.sample_time,
         "support.stiffness": case.support.stiffness if case.support else 0.0,
@@ -244,17 +270,24 @@ def fmi_parameters(case: Case) -> dict[str, Value]:
         for quantity in ("mass", "length", "com", "inertia"):
             values[f"link[{i}].{quantity}"] = getattr(link, quantity)
         values[f"joint[{i}].start"] = start
+    for i, torque in enumerate(case.steps[0][1].joint_torques, start=1):
+        values[f"joint[{i}].actuation"] = 1 if torque is None else 2
+    if v.balance:
+        values |= {f"{balance_name(v)}.{name}": value for name, value in asdict(v.balance).items()}
     if case.payload:
         values |= {"payload.mass": case.payload.mass, "payload.com": case.payload.com}
     return values
 
 
-def fmi_inputs(inputs: StepInputs) -> dict[str, Value]:
+def balance_name(vehicle: Vehicle) -> str:
+    """First part of the names of the variables of what balances the arm."""
+    return "counterweight" if isinstance(vehicle.balance, Counterweight) else "balance_element"
+
+
+def fmi_inputs(case: Case, inputs: StepInputs) -> dict[str, Value]:
     """Inputs of one step by FMI variable name."""
     u = inputs
     values: dict[str, Value] = {
-        "counterweight.rate_command": u.counterweight_rate,
-        "counterweight.acceleration_command": u.counterweight_acceleration,
         "grasp": u.grasp,
         "autopilot.altitude_reference": u.altitude_reference,
         "autopilot.roll_reference": u.roll_reference,
@@ -272,11 +305,24 @@ def fmi_inputs(inputs: StepInputs) -> dict[str, Value]:
     for i, (rate, acceleration) in enumerate(zip(u.joint_rates, accelerations), start=1):
         values[f"joint[{i}].rate_command"] = rate
         values[f"joint[{i}].acceleration_command"] = acceleration
+    for i, torque in enumerate(u.joint_torques, start=1):
+        values[f"joint[{i}].torque_command"] = torque or 0.0
+    if case.vehicle.balance:
+        name = balance_name(case.vehicle)
+        values[f"{name}.rate_command"] = u.balance_rate
+        values[f"{name}.acceleration_command"] = u.balance_acceleration
     return values
 
 
-def fmi_outputs(out: StepOutput, n: int) -> dict[str, Value]:
-    """Outputs of one step of an arm with n joints by FMI variable name."""
+def fmi_slopes(inputs: StepInputs) -> dict[str, float]:
+    """First derivatives of inputs in one step, where they are not zero, by FMI variable name."""
+    slopes = enumerate(inputs.joint_torque_slopes, start=1)
+    return {f"joint[{i}].torque_command": slope for i, slope in slopes if slope}
+
+
+def fmi_outputs(vehicle: Vehicle, out: StepOutput) -> dict[str, Value]:
+    """Outputs of one step by FMI variable name."""
+    n = len(vehicle.links)
     values: dict[str, Value] = dict(
         zip(
             (
@@ -294,12 +340,14 @@ def fmi_outputs(out: StepOutput, n: int) -> dict[str, Value]:
         )
     )
     for i in range(n):
-        values[f"joint[{i + 1}].position"] = out.imposed[i]
-        values[f"joint[{i + 1}].rate"] = out.imposed_rates[i]
+        values[f"joint[{i + 1}].position"] = out.coordinates[i]
+        values[f"joint[{i + 1}].rate"] = out.rates[i]
         values[f"joint[{i + 1}].torque"] = out.motors[i]
-    if len(out.imposed) > n:
-        values["counterweight.position"] = out.imposed[n]
-        values["counterweight.rate"] = out.imposed_rates[n]
+    if vehicle.balance:
+        name = balance_name(vehicle)
+        values[f"{name}.position"] = out.coordinates[n]
+        values[f"{name}.rate"] = out.rates[n]
+        values[f"{name}.{'force' if name == 'counterweight' else 'torque'}"] = out.motors[n]
     for prefix, names, entries in (
         ("end_effector", ("x", "y"), out.end_effector),
         ("end_effector", ("vx", "vy"), out.end_effector_velocity),
@@ -328,5 +376,5 @@ def oracle_table(case: Case) -> dict[str, Array]:
         case.joint_start,
         case.steps,
     )
-    rows = [fmi_outputs(out, len(case.vehicle.links)) for out in outputs]
+    rows = [fmi_outputs(case.vehicle, out) for out in outputs]
     return {name: np.array([row[name] for row in rows], dtype=float) for name in rows[0]}

@@ -13,6 +13,7 @@ from scipy.linalg import expm
 from oracle import simulate
 from oracle_data import (
     Autopilot,
+    BalanceElement,
     Counterweight,
     Gains,
     Link,
@@ -52,7 +53,7 @@ def wild_steps(
         if k % every == 0:
             rates = tuple(random.uniform(-2.0, 2.0, n))
             slide = random.uniform(-0.3, 0.3)
-        steps.append((duration, StepInputs(rates, counterweight_rate=slide, **inputs)))
+        steps.append((duration, StepInputs(rates, balance_rate=slide, **inputs)))
     return steps
 
 
@@ -78,13 +79,13 @@ def test_kinematics() -> None:
         ]
     )
     moment = v.uav_mass * out.pose[:2]
-    for link, angle in zip(v.links, phi + np.cumsum(out.imposed[:3])):
+    for link, angle in zip(v.links, phi + np.cumsum(out.coordinates[:3])):
         along = np.array([math.sin(angle), -math.cos(angle)])
         moment = moment + link.mass * (point + link.com * along)
         point = point + link.length * along
-    assert v.counterweight is not None
-    s, h = out.imposed[3], v.counterweight.height
-    moment = moment + v.counterweight.mass * (
+    assert v.balance is not None
+    s, h = out.coordinates[3], v.balance.height
+    moment = moment + v.balance.mass * (
         out.pose[:2]
         + [s * math.cos(phi) - h * math.sin(phi), s * math.sin(phi) + h * math.cos(phi)]
     )
@@ -98,11 +99,11 @@ def test_sliding_base_with_one_link() -> None:
     steps = [(0.1, StepInputs((1.5,), (0.7,))), (0.1, StepInputs((-2.0,)))]
     for out in simulate(v, IDEAL, None, None, G, [q0], steps):
         link = v.links[0]
-        expected = -link.mass * link.com * (math.sin(out.imposed[0]) - math.sin(q0)) / v.mass
+        expected = -link.mass * link.com * (math.sin(out.coordinates[0]) - math.sin(q0)) / v.mass
         np.testing.assert_allclose(out.pose, [expected, 0.0, 0.0], atol=1e-14)
         assert out.velocity[1] == out.velocity[2] == 0.0
-    # Positions of the imposed joint itself.
-    assert out.imposed[0] == pytest.approx(q0 + 0.15 + 0.0035 - 0.2, abs=1e-15)
+    # Positions of the joint itself.
+    assert out.coordinates[0] == pytest.approx(q0 + 0.15 + 0.0035 - 0.2, abs=1e-15)
 
 
 def test_pendulum_torque_on_a_nearly_fixed_base() -> None:
@@ -138,9 +139,9 @@ def test_floating_reorientation() -> None:
     inertia = link.inertia + reduced * link.com**2
     share = -inertia / (v.uav_inertia + inertia)
     for out in simulate(v, OFF, None, None, 0.0, [0.2], wild_steps(1, 30)):
-        assert out.velocity[2] == pytest.approx(share * out.imposed_rates[0], abs=1e-13)
-        assert out.pose[2] == pytest.approx(share * (out.imposed[0] - 0.2), abs=1e-13)
-        angle = out.pose[2] + out.imposed[0]
+        assert out.velocity[2] == pytest.approx(share * out.rates[0], abs=1e-13)
+        assert out.pose[2] == pytest.approx(share * (out.coordinates[0] - 0.2), abs=1e-13)
+        angle = out.pose[2] + out.coordinates[0]
         offset = link.com * np.array([math.sin(angle), -math.cos(angle)])
         start = link.com * np.array([math.sin(0.2), -math.cos(0.2)])
         np.testing.assert_allclose(out.pose[:2], -(offset - start) * link.mass / v.mass, atol=1e-13)
@@ -199,9 +200,9 @@ def test_energy_balance(n: int, case: str) -> None:
     for k, (old, new) in enumerate(zip(outputs, outputs[1:]), start=1):
         if k % 10 == 0:
             continue
-        turned = new.pose[2] - old.pose[2] + np.sum((new.imposed - old.imposed)[:n])
+        turned = new.pose[2] - old.pose[2] + np.sum((new.coordinates - old.coordinates)[:n])
         work = (
-            new.motors @ (new.imposed - old.imposed)
+            new.motors @ (new.coordinates - old.coordinates)
             + base @ (new.pose - old.pose)
             + tip @ (new.end_effector - old.end_effector)
             + loads.get("end_effector_torque", 0.0) * turned
@@ -215,8 +216,8 @@ def test_energy_balance(n: int, case: str) -> None:
 def test_jump(ideal: bool) -> None:
     """At a jump base momenta stay; energy changes by impulses times mean rates."""
     v, short = vehicle(3, sliding=True), 1e-10
-    before = StepInputs((1.0, -0.5, 0.7), counterweight_rate=0.2)
-    after = StepInputs((-1.0, 1.5, 0.2), counterweight_rate=-0.1)
+    before = StepInputs((1.0, -0.5, 0.7), balance_rate=0.2)
+    after = StepInputs((-1.0, 1.5, 0.2), balance_rate=-0.1)
     old, new = simulate(
         v,
         IDEAL if ideal else OFF,
@@ -232,7 +233,7 @@ def test_jump(ideal: bool) -> None:
     if not ideal:
         assert new.angular_momentum == pytest.approx(old.angular_momentum, abs=1e-8)
         assert np.max(np.abs(new.velocity - old.velocity)) > 0.01
-    work = short * new.motors @ (new.imposed_rates + old.imposed_rates) / 2
+    work = short * new.motors @ (new.rates + old.rates) / 2
     assert new.kinetic_energy - old.kinetic_energy == pytest.approx(work, abs=1e-8)
 
 
@@ -291,8 +292,8 @@ def test_accelerations_are_derivatives_of_velocities(ideal: bool) -> None:
         [0.1] * 3,
         [
             (0.3, u),
-            (h, replace(u, joint_rates=(1.9, -1.1, 1.0), counterweight_rate=0.35)),
-            (h, replace(u, joint_rates=(1.9003, -1.1002, 1.0001), counterweight_rate=0.35005)),
+            (h, replace(u, joint_rates=(1.9, -1.1, 1.0), balance_rate=0.35)),
+            (h, replace(u, joint_rates=(1.9003, -1.1002, 1.0001), balance_rate=0.35005)),
         ],
     )
     slope = (coarse[2].velocity - coarse[0].velocity) / (2 * h)
@@ -406,8 +407,8 @@ def test_capture_and_release_in_free_fall() -> None:
 def test_capture_off_axis_keeps_both_momenta() -> None:
     """No gravity: what the payload gains, the vehicle loses, also in angular momentum."""
     v, load = vehicle(2, sliding=True), Payload(0.7, 0.1)
-    moving = StepInputs((1.0, -2.0), counterweight_rate=0.3, base_force=(1.0, 2.0), base_torque=0.4)
-    jumped = StepInputs((-1.0, 0.5), counterweight_rate=-0.1, grasp=True)
+    moving = StepInputs((1.0, -2.0), balance_rate=0.3, base_force=(1.0, 2.0), base_torque=0.4)
+    jumped = StepInputs((-1.0, 0.5), balance_rate=-0.1, grasp=True)
     outputs = simulate(
         v,
         OFF,
@@ -506,9 +507,40 @@ def test_touch_shorter_than_an_integration_step() -> None:
     assert touched.motors[0] == pytest.approx(free.motors[0], abs=1e-10)
 
 
+@pytest.mark.parametrize("n", [1, 3])
+@pytest.mark.parametrize("element", [None, BalanceElement(0.8, 3e-3, 0.12, 0.7)])
+def test_free_joints_conserve_energy_and_momentum(n: int, element: BalanceElement | None) -> None:
+    """Nothing drives the joints and nothing controls the UAV."""
+    v = replace(vehicle(n), balance=element)
+    still = StepInputs((0.0,) * n, base_torque=0.2, joint_torques=(0.0,) * n)
+    steps = [(0.01, still)] * 5 + [(0.01, replace(still, base_torque=0.0))] * 60
+    outputs = simulate(v, OFF, None, None, G, [0.8] * n, steps)
+    start = outputs[5]
+    turned = np.abs(outputs[-1].coordinates - start.coordinates)
+    assert np.max(turned[:n]) > 1e-2
+    for out in outputs[5:]:
+        np.testing.assert_allclose(energy(out), energy(start), atol=1e-10)
+        np.testing.assert_allclose(out.momentum[0], start.momentum[0], atol=1e-11)
+        np.testing.assert_allclose(
+            central_angular_momentum(out), central_angular_momentum(start), atol=1e-10
+        )
+        np.testing.assert_allclose(out.motors[:n], 0.0, atol=1e-9)
+
+
+def test_a_free_pendulum_under_a_heavy_uav() -> None:
+    """Small swings on a base that hardly moves: the frequency is sqrt(m g a / (I + m a^2))."""
+    v = replace(vehicle(1), uav_mass=1e12, uav_inertia=1e12)
+    link = v.links[0]
+    inertia = link.inertia + link.mass * link.com**2
+    frequency = math.sqrt(link.mass * G * link.com / inertia)
+    steps = [(0.01, StepInputs((0.0,), joint_torques=(0.0,)))] * 50
+    for out in simulate(v, IDEAL, None, None, G, [1e-4], steps):
+        assert out.coordinates[0] == pytest.approx(1e-4 * math.cos(frequency * out.time), abs=1e-11)
+
+
 def test_massless_counterweight_changes_nothing() -> None:
     steps = wild_steps(2, 30)
-    with_slider = replace(vehicle(2), counterweight=Counterweight(0.0, 0.0, 0.1, 0.05))
+    with_slider = replace(vehicle(2), balance=Counterweight(0.0, 0.0, 0.1, 0.05))
     a = simulate(vehicle(2), PID, None, None, G, [0.3, 0.2], steps)[-1]
     b = simulate(with_slider, PID, None, None, G, [0.3, 0.2], steps)[-1]
     np.testing.assert_allclose(a.pose, b.pose, atol=1e-13)
@@ -519,7 +551,7 @@ def test_splitting_steps_changes_nothing() -> None:
     """Step means of halves average to the mean of the whole."""
     v, u = vehicle(2, sliding=True), StepInputs((1.0, -1.5), (0.5, 2.0), 0.2, 0.3)
     late = replace(
-        u, joint_rates=(1.0 + 0.5 * 0.01, -1.5 + 2.0 * 0.01), counterweight_rate=0.2 + 0.3 * 0.01
+        u, joint_rates=(1.0 + 0.5 * 0.01, -1.5 + 2.0 * 0.01), balance_rate=0.2 + 0.3 * 0.01
     )
     whole = simulate(v, PID, None, None, G, [0.3, 0.2], [(0.02, u)])[-1]
     one, two = simulate(v, PID, None, None, G, [0.3, 0.2], [(0.01, u), (0.01, late)])

@@ -37,7 +37,7 @@ KINDS = {
     "acceleration": {"base.ax", "base.ay", "base.roll_acceleration"},
     "momentum": {"momentum.x", "momentum.y", "momentum.angular"},
     "force": {
-        *("autopilot.thrust", "autopilot.torque", "torque", "support.force"),
+        *("autopilot.thrust", "autopilot.torque", "torque", "force", "support.force"),
         *("transmitted.force_x", "transmitted.force_y", "transmitted.moment"),
     },
     "exact": {"payload.attached"},
@@ -45,8 +45,9 @@ KINDS = {
 
 
 def kind_of(name: str) -> str:
-    """Kind of an output; those of joints and counterweight go by their last part."""
-    key = name.rsplit(".", 1)[1] if name.startswith(("joint[", "counterweight.")) else name
+    """Kind of an output; those of coordinates go by their last part."""
+    coordinates = ("joint[", "counterweight.", "balance_element.")
+    key = name.rsplit(".", 1)[1] if name.startswith(coordinates) else name
     return next(kind for kind, names in KINDS.items() if key in names)
 
 
@@ -70,7 +71,7 @@ def compare(case: Case, plant: dict[str, Array], oracle: dict[str, Array]) -> li
 def test_plant(structure: Structure, seed: int) -> None:
     # Seeds differ from one structure to the next, so that all together see more vehicles.
     seed += COMBINATIONS * 1000 * STRUCTURES.index(structure)
-    case = random_case(seed, links=structure.links, counterweight=structure.counterweight)
+    case = random_case(seed, links=structure.links, balance=structure.balance)
     oracle = oracle_table(case)
     misses = compare(case, fmu_table(build(structure).plant, case, list(oracle)), oracle)
     assert not misses, "\n".join([case.name, *misses])
