@@ -7,11 +7,12 @@
 //! Modules know only what stands above them in this list:
 //! [`options`], [`bytes`], [`unit`], [`variables`] (named data), [`qp`], [`planar`], [`parameters`], [`vehicle`],
 //! [`kinematics`], [`momentum`], [`dynamics`], then [`plant`] and [`controller`], and at the end
-//! [`fmi2`] and [`interface`], which make units of them.
+//! [`fmi2`] and [`interface`], which make units of them. Named runs (`scenarios`) stand beside the units.
 
 pub mod autopilot;
 pub mod bytes;
 pub mod controller;
+pub mod defaults;
 pub mod dynamics;
 pub mod error;
 pub mod fmi2;
@@ -24,6 +25,7 @@ pub mod planar;
 pub mod plant;
 pub mod qp;
 pub mod reference;
+#[cfg(feature = "scenarios")]
 pub mod scenarios;
 pub mod unit;
 pub mod variables;

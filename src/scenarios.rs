@@ -5,22 +5,17 @@
 //! The runs of the thesis are the files in the folder `scenarios`.
 
 mod catalogue;
-mod defaults;
 mod error;
 mod reader;
 mod writer;
 
 pub use catalogue::{catalogue, find};
-pub use defaults::default_parameters;
 pub use error::{Error, Problem};
 pub use writer::Extent;
 
-use crate::parameters::{Parameters, Structure};
+pub use crate::defaults::{PICK_UP_DURATION, THESIS_STEP, default_parameters};
 
-/// Duration of the payload pick-up of thesis chapter 4 \[s\].
-pub const PICK_UP_DURATION: f64 = 30.0;
-/// Communication step of the thesis \[s\].
-pub const THESIS_STEP: f64 = 1e-3;
+use crate::parameters::{Parameters, Structure};
 
 /// A run that everybody can start by its name.
 #[derive(Debug, Clone, PartialEq)]

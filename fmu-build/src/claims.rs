@@ -1,12 +1,10 @@
 //! What the thesis says came out of a simulation, beside what comes out here.
 
-use std::ops::RangeInclusive;
-
 mod quantity;
 mod table;
 mod thesis;
 
-pub use quantity::{Quantity, Shown};
+pub use quantity::{Numbers, Quantity, Shown};
 pub use table::{Cell, Row, Section, Table};
 pub use thesis::{BASE_MOTION, PICK_UP};
 
@@ -14,16 +12,44 @@ pub use thesis::{BASE_MOTION, PICK_UP};
 pub const LOST: f64 = 0.01;
 
 /// A statement of the thesis about one quantity of one scenario.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Claim {
     /// Which scenario.
     pub scenario: &'static str,
     /// About what.
     pub quantity: Quantity,
+    /// The statement is about the ratio to the same quantity of this scenario.
+    pub compared_with: Option<&'static str>,
     /// The statement.
     pub thesis: &'static str,
-    /// Numbers (SI) that agree with it.
-    pub agrees: RangeInclusive<f64>,
+    /// Smallest and largest number (SI) that agrees with it.
+    pub interval: [f64; 2],
+    /// Where the statement does not hold here.
+    pub deviation: Option<Deviation>,
+}
+
+/// A statement that does not hold.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Deviation {
+    /// With which discretizations, in the order of [`crate::study::DISCRETIZATIONS`].
+    pub of: [bool; 2],
+    /// Why, in a line.
+    pub why: &'static str,
+}
+
+impl Claim {
+    /// Whether a number is what the thesis says; not a number never is.
+    #[must_use]
+    pub fn agrees(&self, value: f64) -> bool {
+        let [smallest, largest] = self.interval;
+        smallest <= value && value <= largest
+    }
+
+    /// Whether the statement should hold with the discretization at this place.
+    #[must_use]
+    pub fn should_agree(&self, discretization: usize) -> bool {
+        !self.deviation.is_some_and(|deviation| deviation.of[discretization])
+    }
 }
 
 /// All claims, in the order of the thesis.
@@ -31,10 +57,9 @@ pub fn all() -> impl Iterator<Item = &'static Claim> {
     BASE_MOTION.iter().chain(PICK_UP)
 }
 
-/// What the thesis says about this quantity of this scenario.
-#[must_use]
-pub fn find(scenario: &str, quantity: Quantity) -> Option<&'static Claim> {
-    all().find(|claim| claim.scenario == scenario && claim.quantity == quantity)
+/// What the thesis says about a scenario.
+pub fn about(scenario: &str) -> impl Iterator<Item = &'static Claim> {
+    all().filter(move |claim| claim.scenario == scenario)
 }
 
 #[cfg(test)]
@@ -88,18 +113,45 @@ mod tests {
     #[test]
     fn every_claim_is_about_a_scenario_of_the_catalogue() {
         let catalogue = uam::scenarios::catalogue().unwrap();
-        assert!(all().all(|claim| catalogue.iter().any(|scenario| scenario.id == claim.scenario)));
+        let known = |id: &str| catalogue.iter().any(|scenario| scenario.id == id);
+        assert!(all().all(|claim| known(claim.scenario) && claim.compared_with.is_none_or(known)));
     }
 
     #[test]
     fn the_table_marks_agreement() {
-        let recording = swinging();
+        let numbers = Numbers::of(&swinging());
         let mut table = Table::new(["euler"]);
-        table.add(Some("4.3a"), "smallest rates", &[Quantity::FarthestRight, Quantity::TrackingError], &[&recording]);
-        table.add(Some("4.3c-minimum-norm"), "swings", &[Quantity::LostAt], &[&recording]);
+        let claim = |scenario, quantity| about(scenario).find(|claim| claim.quantity == quantity).unwrap();
+        let row = |claim: &Claim| Row::of(claim, [numbers.get(claim.quantity)]);
+        table.add(
+            "4.3a",
+            vec![
+                row(claim("4.3a", Quantity::FarthestRight)),
+                Row::plain(Quantity::TrackingError, [numbers.get(Quantity::TrackingError)]),
+            ],
+        );
+        table.add("4.3c", vec![row(claim("4.3c-minimum-norm", Quantity::LostAt))]);
         assert_eq!(table.agreement(), (2, 1));
         let text = table.to_string();
-        assert!(text.contains("110.0 mm ✓"), "{text}");
+        assert!(text.contains("110.0 mm ✓") && text.contains("2.0e-1 m"), "{text}");
         assert!(text.contains("2.0 s ✗"), "{text}");
+    }
+
+    #[test]
+    fn more_quantities_of_a_known_motion() {
+        let names = ["base.x", "transmitted.moment", "joint[1].position", "joint[2].position", "joint[1].rate_command"];
+        let mut recording = Recording::new(names, 11);
+        for k in 0..=10 {
+            let t = 0.4 * f64::from(k);
+            recording.push(t, [0.01 * t * t, 3.0 - t, 0.2 * t, -0.3 * t, -0.5 * t]);
+        }
+        let measured = |quantity: Quantity| quantity.measure(&recording);
+        // From 3 s or the communication point before, 2.8 s, to 4 s.
+        assert!((measured(Quantity::DriftSpeed) - 0.01 * (16.0 - 2.8 * 2.8) / 1.2).abs() < 1e-12);
+        assert!((measured(Quantity::EarlyMoment) - 3.0).abs() < 1e-12);
+        assert!((measured(Quantity::LateMoment) - 1.0).abs() < 1e-12);
+        assert!((measured(Quantity::JointsReturn) - 1.2).abs() < 1e-12);
+        assert!((measured(Quantity::Rate) - 2.0).abs() < 1e-12);
+        assert!(measured(Quantity::ThirdJoint).is_nan() && measured(Quantity::CounterweightLeft).is_nan());
     }
 }

@@ -1,8 +1,10 @@
 //! What the commands do.
 
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use anyhow::{Context, Result};
+use fmu_build::coupling::Pair;
 use fmu_build::run::Run;
 use fmu_build::{BuildOptions, Built, Design, workspace};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -101,10 +103,33 @@ fn speed(runs: &[&Run]) -> String {
     format!("{simulated:.0} s simulated in {elapsed:.2} s: {:.0} times faster than real time.", simulated / elapsed)
 }
 
-/// Counts communication points on the terminal. Drawing costs more than a step: only now and then.
+/// The FMUs of several structures.
+struct Pairs(Vec<(Structure, Pair)>);
+
+impl Pairs {
+    /// Builds those of each structure once, and loads them.
+    fn build(out: &Path, structures: impl IntoIterator<Item = Structure>) -> Result<Self> {
+        let mut pairs: Vec<(Structure, Pair)> = Vec::new();
+        for structure in structures {
+            if pairs.iter().all(|(built, _)| *built != structure) {
+                let built = build(structure, &folder(out, structure))?;
+                pairs.push((structure, Pair::open(&built.controller, &built.plant)?));
+            }
+        }
+        Ok(Self(pairs))
+    }
+
+    /// The pair of a structure, if it was built.
+    fn of(&self, structure: Structure) -> Option<&Pair> {
+        self.0.iter().find(|(built, _)| *built == structure).map(|(_, pair)| pair)
+    }
+}
+
+/// Counts communication points on the terminal, from all threads. Drawing costs more than a step: only now
+/// and then.
 struct Progress {
     bar: ProgressBar,
-    points: std::cell::Cell<u64>,
+    points: AtomicU64,
 }
 
 impl Progress {
@@ -112,12 +137,11 @@ impl Progress {
 
     fn new(points: u64, what: &'static str) -> Result<Self> {
         let style = ProgressStyle::with_template("{msg} [{bar:40}] {percent:>3} % in {elapsed}")?.progress_chars("=> ");
-        Ok(Self { bar: ProgressBar::new(points).with_style(style).with_message(what), points: std::cell::Cell::new(0) })
+        Ok(Self { bar: ProgressBar::new(points).with_style(style).with_message(what), points: AtomicU64::new(0) })
     }
 
     fn point(&self) {
-        self.points.set(self.points.get() + 1);
-        if self.points.get().is_multiple_of(Self::STRIDE) {
+        if (self.points.fetch_add(1, Ordering::Relaxed) + 1).is_multiple_of(Self::STRIDE) {
             self.bar.inc(Self::STRIDE);
         }
     }

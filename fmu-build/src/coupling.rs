@@ -33,6 +33,9 @@ pub enum Error {
         /// What the unit says.
         source: fmu::Error,
     },
+    /// A worker that was lost.
+    #[error("a run gave no result")]
+    Empty,
     /// A schedule that makes no sense.
     #[error("{name} must be {expected}, but is {found}")]
     Schedule {

@@ -1,6 +1,6 @@
 //! Who made the files, and when a simulation of them begins and ends: written into every product.
 
-use uam::scenarios;
+use uam::defaults;
 
 use crate::design::Experiment;
 
@@ -19,4 +19,4 @@ pub const GENERATION_TOOL: &str = concat!(env!("CARGO_PKG_NAME"), " ", env!("CAR
 pub const START_TIME: f64 = 0.0;
 /// The experiment that belongs to the library's own start values.
 pub const EXPERIMENT: Experiment =
-    Experiment { stop_time: scenarios::PICK_UP_DURATION, step_size: scenarios::THESIS_STEP };
+    Experiment { stop_time: defaults::PICK_UP_DURATION, step_size: defaults::THESIS_STEP };

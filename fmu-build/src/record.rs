@@ -42,6 +42,7 @@ impl Names {
                     "autopilot.torque",
                     "transmitted.moment",
                     "payload.attached",
+                    "payload.force_y",
                     "support.force",
                 ]))
                 .collect(),

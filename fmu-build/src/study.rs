@@ -1,16 +1,37 @@
 //! Scenarios with each discretization, beside what the thesis says; among them the pick-up of 4.3.
 
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Duration;
+
+use uam::Structure;
 use uam::options::Choice;
 use uam::parameters::Discretization;
 use uam::scenarios::{self, Scenario, catalogue};
 
-use crate::claims::{self, Quantity, Table};
+use crate::claims::{self, Claim, Numbers, Quantity, Row, Table};
 use crate::coupling::{Error, Order, Pair, Schedule};
 use crate::record::Names;
 use crate::run::{Run, run};
 
 /// The discretizations that are compared, in the order of the columns of tables.
 pub const DISCRETIZATIONS: [Discretization; 2] = [Discretization::Euler, Discretization::Exact];
+
+/// Runs a scenario at its own step with a discretization. `progress` hears of every communication point.
+///
+/// # Errors
+/// If it cannot be started.
+pub fn run_with(
+    pair: &Pair,
+    scenario: &Scenario,
+    discretization: Discretization,
+    progress: &dyn Fn(),
+) -> Result<Run, Error> {
+    let schedule = Schedule::new(0.0, scenario.duration, scenario.step)?;
+    let mut variant = scenario.clone();
+    variant.parameters.ik.discretization = discretization;
+    run(pair, &variant, &schedule, Order::Parallel, &Names::standard(scenario.structure), progress)
+}
 
 /// A scenario, run with each of [`DISCRETIZATIONS`].
 #[derive(Debug)]
@@ -27,15 +48,8 @@ impl Case {
     /// # Errors
     /// If it cannot be started.
     pub fn run(pair: &Pair, scenario: Scenario, progress: &dyn Fn()) -> Result<Self, Error> {
-        let schedule = Schedule::new(0.0, scenario.duration, scenario.step)?;
-        let names = Names::standard(scenario.structure);
-        let with = |discretization| {
-            let mut variant = scenario.clone();
-            variant.parameters.ik.discretization = discretization;
-            run(pair, &variant, &schedule, Order::Parallel, &names, progress)
-        };
-        let [euler, exact] = DISCRETIZATIONS;
-        Ok(Self { runs: [with(euler)?, with(exact)?], scenario })
+        let [euler, exact] = DISCRETIZATIONS.map(|discretization| run_with(pair, &scenario, discretization, progress));
+        Ok(Self { runs: [euler?, exact?], scenario })
     }
 
     /// The run with the discretization `exact`.
@@ -52,29 +66,98 @@ impl Case {
         euler
     }
 
-    fn title(&self) -> String {
-        let Scenario { id, title, parameters, .. } = &self.scenario;
-        let ik = &parameters.ik;
-        if id.starts_with("4.3") {
-            format!("{id} · {}, roll kd {}", ik.resolution.name(), parameters.autopilot.roll.kd)
-        } else {
-            format!("{id} · {} · {title}", ik.base_model.name())
-        }
-    }
-
-    /// What is to be said of this scenario: all of the pick-up, otherwise what the thesis makes a statement
-    /// about. Once the arm has left a workspace that it should not leave, no other number means anything.
-    fn quantities(&self) -> Vec<Quantity> {
-        let claimed = |quantity: Quantity| claims::find(&self.scenario.id, quantity).is_some();
-        if !self.scenario.id.starts_with("4.3") {
-            return Quantity::ALL.into_iter().filter(|&quantity| claimed(quantity)).collect();
-        }
-        let lost = |run: &Run| Quantity::LostAt.measure(&run.recording).is_finite();
-        if self.runs.iter().any(lost) { vec![Quantity::LostAt] } else { PICK_UP.to_vec() }
+    /// The numbers of both runs.
+    #[must_use]
+    pub fn summary(&self) -> Summary {
+        Summary { scenario: self.scenario.clone(), outcomes: self.runs.each_ref().map(Outcome::of) }
     }
 }
 
-/// What is to be said of a pick-up.
+/// What is kept of a run.
+#[derive(Debug, Clone)]
+pub struct Outcome {
+    /// All quantities.
+    pub numbers: Numbers,
+    /// Why the run stopped early, if it did.
+    pub complaint: Option<String>,
+    /// Time that was simulated \[s\].
+    pub simulated: f64,
+    /// Time that it took.
+    pub elapsed: Duration,
+}
+
+impl Outcome {
+    /// Sums up a run.
+    #[must_use]
+    pub fn of(run: &Run) -> Self {
+        Self {
+            numbers: Numbers::of(&run.recording),
+            complaint: run.complaint(),
+            simulated: run.simulated(),
+            elapsed: run.elapsed,
+        }
+    }
+}
+
+/// A scenario with what came out with each of [`DISCRETIZATIONS`].
+#[derive(Debug, Clone)]
+pub struct Summary {
+    /// The scenario.
+    pub scenario: Scenario,
+    /// One per discretization.
+    pub outcomes: [Outcome; 2],
+}
+
+/// Runs scenarios with each discretization, on all cores. `pair` finds the FMUs of a structure.
+///
+/// # Errors
+/// If one of them cannot be started.
+pub fn run_all<'a>(
+    scenarios: Vec<Scenario>,
+    pair: &(dyn Fn(Structure) -> Option<&'a Pair> + Sync),
+    progress: &(dyn Fn() + Sync),
+) -> Result<Vec<Summary>, Error> {
+    let jobs: Vec<(&Scenario, Discretization)> = scenarios
+        .iter()
+        .flat_map(|scenario| DISCRETIZATIONS.map(|discretization| (scenario, discretization)))
+        .collect();
+    let run = |&(scenario, discretization): &(&Scenario, Discretization)| {
+        let pair = pair(scenario.structure).ok_or(Error::Empty)?;
+        let run = run_with(pair, scenario, discretization, progress)?;
+        Ok(Outcome::of(&run))
+    };
+    let mut outcomes = on_all_cores(&jobs, &run).into_iter();
+    let mut next = || outcomes.next().unwrap_or(Err(Error::Empty));
+    let mut summaries = Vec::with_capacity(scenarios.len());
+    for scenario in &scenarios {
+        summaries.push(Summary { scenario: scenario.clone(), outcomes: [next()?, next()?] });
+    }
+    Ok(summaries)
+}
+
+/// Does all jobs, as many at a time as there are cores; results are in the order of the jobs.
+pub fn on_all_cores<J: Sync, R: Send>(jobs: &[J], work: &(dyn Fn(&J) -> R + Sync)) -> Vec<R> {
+    let next = AtomicUsize::new(0);
+    let done: Mutex<Vec<(usize, R)>> = Mutex::new(Vec::with_capacity(jobs.len()));
+    let worker = || {
+        while let Some((number, job)) = Some(next.fetch_add(1, Ordering::Relaxed)).and_then(|n| Some((n, jobs.get(n)?)))
+        {
+            let result = work(job);
+            done.lock().unwrap_or_else(std::sync::PoisonError::into_inner).push((number, result));
+        }
+    };
+    let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    std::thread::scope(|scope| {
+        for _ in 0..cores.min(jobs.len()) {
+            scope.spawn(worker);
+        }
+    });
+    let mut done = done.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+    done.sort_by_key(|(number, _)| *number);
+    done.into_iter().map(|(_, result)| result).collect()
+}
+
+/// What is said of a pick-up beside the claims.
 const PICK_UP: [Quantity; 8] = [
     Quantity::FarthestRight,
     Quantity::FinalX,
@@ -94,13 +177,58 @@ pub fn pick_up() -> Result<Vec<Scenario>, scenarios::Error> {
     Ok(catalogue()?.into_iter().filter(|scenario| scenario.id.starts_with("4.3")).collect())
 }
 
-/// What the thesis says of these cases beside what came out.
+/// What the thesis says of these scenarios beside what came out.
 #[must_use]
-pub fn table(cases: &[Case]) -> Table {
+pub fn table(summaries: &[Summary]) -> Table {
     let mut table = Table::new(DISCRETIZATIONS.map(|discretization| discretization.name()));
-    for case in cases {
-        let recordings = case.runs.each_ref().map(|run| &run.recording);
-        table.add(Some(&case.scenario.id), &case.title(), &case.quantities(), &recordings);
+    for summary in summaries {
+        let claims = claims::about(&summary.scenario.id);
+        let rows = claims.filter_map(|claim| Some(Row::of(claim, values(summaries, claim)?)));
+        table.add(title(&summary.scenario), rows.collect());
     }
     table
+}
+
+/// The same for the pick-up, with all that is to be said of it. Once the arm has left a workspace that it
+/// should not leave, no other number means anything.
+#[must_use]
+pub fn pick_up_table(summaries: &[Summary]) -> Table {
+    let mut table = Table::new(DISCRETIZATIONS.map(|discretization| discretization.name()));
+    for summary in summaries {
+        let numbers = summary.outcomes.each_ref().map(|outcome| &outcome.numbers);
+        let lost = numbers.iter().any(|numbers| numbers.get(Quantity::LostAt).is_finite());
+        let quantities = if lost { vec![Quantity::LostAt] } else { PICK_UP.to_vec() };
+        let row = |quantity: Quantity| {
+            let values = numbers.map(|numbers| numbers.get(quantity));
+            let claim = claims::about(&summary.scenario.id)
+                .find(|claim| claim.quantity == quantity && claim.compared_with.is_none());
+            claim.map_or_else(|| Row::plain(quantity, values), |claim| Row::of(claim, values))
+        };
+        let Scenario { id, parameters, .. } = &summary.scenario;
+        let title = format!("{id} · {}, roll kd {}", parameters.ik.resolution.name(), parameters.autopilot.roll.kd);
+        table.add(title, quantities.into_iter().map(row).collect());
+    }
+    table
+}
+
+/// The numbers that a claim is about, if all its scenarios were run.
+#[must_use]
+pub fn values(summaries: &[Summary], claim: &Claim) -> Option<[f64; 2]> {
+    let numbers = |id: &str| {
+        let summary = summaries.iter().find(|summary| summary.scenario.id == id)?;
+        Some(summary.outcomes.each_ref().map(|outcome| outcome.numbers.get(claim.quantity)))
+    };
+    let [euler, exact] = numbers(claim.scenario)?;
+    Some(match claim.compared_with {
+        None => [euler, exact],
+        Some(other) => {
+            let [other_euler, other_exact] = numbers(other)?;
+            [euler / other_euler, exact / other_exact]
+        }
+    })
+}
+
+fn title(scenario: &Scenario) -> String {
+    let Scenario { id, title, parameters, .. } = scenario;
+    format!("{id} · {} · {} · {title}", parameters.ik.base_model.name(), parameters.ik.resolution.name())
 }

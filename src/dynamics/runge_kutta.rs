@@ -63,9 +63,9 @@ impl<const N: usize> Dynamics<N> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::defaults::default_parameters;
     use crate::dynamics::{Loads, Motion};
     use crate::parameters::{BaseModel, Structure};
-    use crate::scenarios::default_parameters;
 
     /// The error after a fixed time falls by 2^4 when the steps are halved, on the real equations.
     #[test]

@@ -5,10 +5,10 @@ mod derivatives;
 use super::{Balancing, declare_time};
 use crate::bytes::{Memory, Tape};
 use crate::controller::{self, Inputs, Outputs, Rates};
+use crate::defaults::default_parameters;
 use crate::error::Error;
 use crate::fmi2::{CommunicationStep, Model};
 use crate::parameters::{self, Parameters, Structure};
-use crate::scenarios;
 use crate::unit;
 use crate::variables::{Bounds, Causality, Table, Variability};
 
@@ -72,7 +72,7 @@ impl Model for ControllerUnit {
     fn start(structure: Structure) -> Data {
         Data {
             time: 0.0,
-            parameters: scenarios::default_parameters(structure),
+            parameters: default_parameters(structure),
             inputs: Inputs::default(),
             outputs: Outputs::default(),
             rates: Rates::default(),

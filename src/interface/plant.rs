@@ -4,11 +4,11 @@ mod derivatives;
 
 use super::{Balancing, declare_time};
 use crate::bytes::{Memory, Tape};
+use crate::defaults::default_parameters;
 use crate::error::Error;
 use crate::fmi2::{CommunicationStep, Model};
 use crate::parameters::{self, Parameters, Structure};
 use crate::plant::{self, Inputs, Outputs, Rates};
-use crate::scenarios;
 use crate::unit;
 use crate::variables::{Bounds, Causality, Table, Variability};
 
@@ -70,7 +70,7 @@ impl Model for PlantUnit {
     fn start(structure: Structure) -> Data {
         Data {
             time: 0.0,
-            parameters: scenarios::default_parameters(structure),
+            parameters: default_parameters(structure),
             inputs: Inputs::default(),
             outputs: Outputs::default(),
             rates: Rates::default(),

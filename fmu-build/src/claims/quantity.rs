@@ -12,16 +12,28 @@ pub enum Quantity {
     FarthestRight,
     /// Largest way of the UAV to the left.
     FarthestLeft,
+    /// Largest way of the UAV along x, either way.
+    WayX,
     /// Way of the UAV to the right at the end.
     FinalX,
+    /// Velocity of the UAV along x in the last second, either way.
+    DriftSpeed,
     /// Deepest sinking of the UAV.
     Sinking,
+    /// Largest way of the UAV along y, either way.
+    WayY,
     /// Largest roll, either way.
     Roll,
     /// Largest torque of the rotors, either way.
     Torque,
-    /// Largest moment of the arm on the UAV, either way.
+    /// Largest deviation of the thrust from the weight at the start, as a share of it.
+    Thrust,
+    /// Largest moment of all that the UAV carries on it, either way.
     Moment,
+    /// The same in the first quarter of the run.
+    EarlyMoment,
+    /// The same in the last tenth of the run.
+    LateMoment,
     /// Largest distance between end effector and reference at the communication points.
     TrackingError,
     /// The same along x only, either way.
@@ -30,8 +42,20 @@ pub enum Quantity {
     FinalErrorX,
     /// The largest along y only, either way.
     ErrorY,
-    /// Largest deviation of the thrust from the weight at the start, as a share of it.
-    Thrust,
+    /// Largest difference between the mean velocities of end effector and reference over a step.
+    VelocityError,
+    /// Largest angle between where a joint ends and where it began.
+    JointsReturn,
+    /// Angle of the third joint at the end.
+    ThirdJoint,
+    /// Largest rate commanded to a joint.
+    Rate,
+    /// Largest way of the counterweight to the right.
+    CounterweightRight,
+    /// Position of the counterweight at its leftmost.
+    CounterweightLeft,
+    /// Vertical force between payload and end effector at the end.
+    FinalLoad,
     /// Largest distance along x between the UAV and where the controller predicts it.
     MissedX,
     /// Largest distance along y between the UAV and where the controller predicts it.
@@ -46,21 +70,49 @@ pub enum Quantity {
     LostAt,
 }
 
+/// How a number is read.
+enum Reading {
+    Millimetres,
+    Metres,
+    MillimetresPerSecond,
+    MetresPerSecond,
+    Degrees,
+    Radians,
+    RadiansPerSecond,
+    Newtons,
+    NewtonMetres,
+    Percent,
+    /// A time, infinite if it never comes.
+    Seconds,
+}
+
 impl Quantity {
     /// Every quantity, in the order of tables.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 30] = [
         Self::FarthestRight,
         Self::FarthestLeft,
+        Self::WayX,
         Self::FinalX,
+        Self::DriftSpeed,
         Self::Sinking,
+        Self::WayY,
         Self::Roll,
         Self::Torque,
+        Self::Thrust,
         Self::Moment,
+        Self::EarlyMoment,
+        Self::LateMoment,
         Self::TrackingError,
         Self::ErrorX,
         Self::FinalErrorX,
         Self::ErrorY,
-        Self::Thrust,
+        Self::VelocityError,
+        Self::JointsReturn,
+        Self::ThirdJoint,
+        Self::Rate,
+        Self::CounterweightRight,
+        Self::CounterweightLeft,
+        Self::FinalLoad,
         Self::MissedX,
         Self::MissedY,
         Self::MissedRoll,
@@ -72,25 +124,41 @@ impl Quantity {
     /// What it is, for tables.
     #[must_use]
     pub fn label(self) -> &'static str {
+        self.reading().0
+    }
+
+    fn reading(self) -> (&'static str, Reading) {
         match self {
-            Self::FarthestRight => "UAV farthest right",
-            Self::FarthestLeft => "UAV farthest left",
-            Self::FinalX => "UAV at the end, to the right",
-            Self::Sinking => "UAV sinks by",
-            Self::Roll => "largest roll",
-            Self::Torque => "largest torque U2",
-            Self::Moment => "largest moment of the arm on the UAV",
-            Self::TrackingError => "largest end-effector error",
-            Self::ErrorX => "largest end-effector error in x",
-            Self::FinalErrorX => "end-effector error in x at the end",
-            Self::ErrorY => "largest end-effector error in y",
-            Self::Thrust => "thrust differs from the weight by",
-            Self::MissedX => "prediction misses the UAV's x by",
-            Self::MissedY => "prediction misses the UAV's y by",
-            Self::MissedRoll => "prediction misses the roll by",
-            Self::MissedYShare => "prediction misses the UAV's y by, of its way in y",
-            Self::MissedRollShare => "prediction misses the roll by, of the largest",
-            Self::LostAt => "arm leaves its workspace at",
+            Self::FarthestRight => ("UAV farthest right", Reading::Millimetres),
+            Self::FarthestLeft => ("UAV farthest left", Reading::Millimetres),
+            Self::WayX => ("UAV moves along x by", Reading::Millimetres),
+            Self::FinalX => ("UAV at the end, to the right", Reading::Millimetres),
+            Self::DriftSpeed => ("UAV drifts in the end with", Reading::MillimetresPerSecond),
+            Self::Sinking => ("UAV sinks by", Reading::Millimetres),
+            Self::WayY => ("UAV moves along y by", Reading::Millimetres),
+            Self::Roll => ("largest roll", Reading::Degrees),
+            Self::Torque => ("largest torque U2", Reading::NewtonMetres),
+            Self::Thrust => ("thrust differs from the weight by", Reading::Percent),
+            Self::Moment => ("largest moment of the arm on the UAV", Reading::NewtonMetres),
+            Self::EarlyMoment => ("the same in the first quarter", Reading::NewtonMetres),
+            Self::LateMoment => ("the same in the last tenth", Reading::NewtonMetres),
+            Self::TrackingError => ("largest end-effector error", Reading::Metres),
+            Self::ErrorX => ("largest end-effector error in x", Reading::Metres),
+            Self::FinalErrorX => ("end-effector error in x at the end", Reading::Metres),
+            Self::ErrorY => ("largest end-effector error in y", Reading::Metres),
+            Self::VelocityError => ("largest error of the mean velocity over a step", Reading::MetresPerSecond),
+            Self::JointsReturn => ("joints end beside where they began by", Reading::Degrees),
+            Self::ThirdJoint => ("joint 3 at the end", Reading::Radians),
+            Self::Rate => ("largest joint rate", Reading::RadiansPerSecond),
+            Self::CounterweightRight => ("counterweight farthest right", Reading::Millimetres),
+            Self::CounterweightLeft => ("counterweight leftmost at", Reading::Millimetres),
+            Self::FinalLoad => ("vertical force on the payload at the end", Reading::Newtons),
+            Self::MissedX => ("prediction misses the UAV's x by", Reading::Metres),
+            Self::MissedY => ("prediction misses the UAV's y by", Reading::Metres),
+            Self::MissedRoll => ("prediction misses the roll by", Reading::Degrees),
+            Self::MissedYShare => ("prediction misses the UAV's y by, of its way in y", Reading::Percent),
+            Self::MissedRollShare => ("prediction misses the roll by, of the largest", Reading::Percent),
+            Self::LostAt => ("arm leaves its workspace at", Reading::Seconds),
         }
     }
 
@@ -100,30 +168,46 @@ impl Quantity {
     pub fn measure(self, recording: &Recording) -> f64 {
         let largest = |name: &str, sign: f64| peak(recording.column(name).iter().map(|value| sign * value));
         let size = |name: &str| peak(recording.column(name).iter().map(|value| value.abs()));
+        let last = |name: &str| recording.column(name).last().copied().unwrap_or(f64::NAN);
         let apart = |found: &str, wanted: &str| {
             let pairs = recording.column(found).iter().zip(recording.column(wanted));
             peak(pairs.map(|(found, wanted)| (found - wanted).abs()))
         };
+        let joints = |suffix: &'static str| {
+            recording.names().filter(move |name| name.starts_with("joint[") && name.ends_with(suffix))
+        };
         match self {
             Self::FarthestRight => largest("base.x", 1.0),
             Self::FarthestLeft => largest("base.x", -1.0),
-            Self::FinalX => recording.column("base.x").last().copied().unwrap_or(f64::NAN),
+            Self::WayX => size("base.x"),
+            Self::FinalX => last("base.x"),
+            Self::DriftSpeed => drift_speed(recording),
             Self::Sinking => largest("base.y", -1.0),
+            Self::WayY => size("base.y"),
             Self::Roll => size("base.roll"),
             Self::Torque => size("autopilot.torque"),
-            Self::Moment => size("transmitted.moment"),
-            Self::TrackingError => peak(recording.tracking_error().into_iter()),
-            Self::ErrorX => apart("end_effector.x", "reference.x"),
-            Self::FinalErrorX => {
-                let last = |name: &str| recording.column(name).last().copied().unwrap_or(f64::NAN);
-                (last("end_effector.x") - last("reference.x")).abs()
-            }
-            Self::ErrorY => apart("end_effector.y", "reference.y"),
             Self::Thrust => {
                 let thrust = recording.column("autopilot.thrust");
                 let weight = thrust.first().copied().unwrap_or(f64::NAN);
                 peak(thrust.iter().map(|thrust| (thrust / weight - 1.0).abs()))
             }
+            Self::Moment => size("transmitted.moment"),
+            Self::EarlyMoment => peak_between(recording, "transmitted.moment", [0.0, 0.25]),
+            Self::LateMoment => peak_between(recording, "transmitted.moment", [0.9, 1.0]),
+            Self::TrackingError => peak(recording.tracking_error().into_iter()),
+            Self::ErrorX => apart("end_effector.x", "reference.x"),
+            Self::FinalErrorX => (last("end_effector.x") - last("reference.x")).abs(),
+            Self::ErrorY => apart("end_effector.y", "reference.y"),
+            Self::VelocityError => velocity_error(recording),
+            Self::JointsReturn => peak(joints("].position").map(|name| match recording.column(name) {
+                [first, .., last] => (last - first).abs(),
+                _ => f64::NAN,
+            })),
+            Self::ThirdJoint => last("joint[3].position"),
+            Self::Rate => peak(joints("].rate_command").map(size)),
+            Self::CounterweightRight => largest("counterweight.position", 1.0),
+            Self::CounterweightLeft => -largest("counterweight.position", -1.0),
+            Self::FinalLoad => last("payload.force_y").abs(),
             Self::MissedX => apart("base.x", "predicted.base.x"),
             Self::MissedY => apart("base.y", "predicted.base.y"),
             Self::MissedRoll => apart("base.roll", "predicted.base.roll"),
@@ -143,6 +227,52 @@ impl Quantity {
     }
 }
 
+/// All quantities of a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Numbers([f64; Quantity::ALL.len()]);
+
+impl Numbers {
+    /// Measures all quantities.
+    #[must_use]
+    pub fn of(recording: &Recording) -> Self {
+        Self(Quantity::ALL.map(|quantity| quantity.measure(recording)))
+    }
+
+    /// The number of this quantity, as [`Quantity::measure`] gives it.
+    #[must_use]
+    pub fn get(&self, quantity: Quantity) -> f64 {
+        let position = Quantity::ALL.iter().position(|other| *other == quantity);
+        position.map_or(f64::NAN, |position| self.0[position])
+    }
+}
+
+/// Largest size of a column between two shares of the run's time.
+fn peak_between(recording: &Recording, name: &str, shares: [f64; 2]) -> f64 {
+    let [Some(first), Some(last)] = [recording.times().first(), recording.times().last()] else { return f64::NAN };
+    let [from, to] = shares.map(|share| recording.row_at(first + share * (last - first)).unwrap_or_default());
+    peak(recording.column(name).get(from..=to).unwrap_or_default().iter().map(|value| value.abs()))
+}
+
+/// Mean velocity of the UAV along x in the last second, or not a number if the run is shorter.
+fn drift_speed(recording: &Recording) -> f64 {
+    let (times, x) = (recording.times(), recording.column("base.x"));
+    let (Some(end), Some(last)) = (times.last(), x.last()) else { return f64::NAN };
+    match recording.row_at(end - 1.0) {
+        Some(row) if row < x.len() => ((last - x[row]) / (end - times[row])).abs(),
+        _ => f64::NAN,
+    }
+}
+
+/// How fast the distance between end effector and reference changes at most.
+fn velocity_error(recording: &Recording) -> f64 {
+    let along = |axis: &str| {
+        let [found, wanted] = ["end_effector", "reference"].map(|point| recording.column(&format!("{point}.{axis}")));
+        found.iter().zip(wanted).map(|(found, wanted)| found - wanted).collect::<Vec<f64>>()
+    };
+    let (times, x, y) = (recording.times(), along("x"), along("y"));
+    peak((1..x.len()).map(|k| (x[k] - x[k - 1]).hypot(y[k] - y[k - 1]) / (times[k] - times[k - 1])))
+}
+
 /// A measured number with the unit in which it is read.
 #[derive(Debug, Clone, Copy)]
 pub struct Shown {
@@ -153,24 +283,20 @@ pub struct Shown {
 impl fmt::Display for Shown {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let value = self.value;
-        match self.quantity {
+        match self.quantity.reading().1 {
             _ if value.is_nan() => write!(f, "–"),
-            Quantity::FarthestRight | Quantity::FarthestLeft | Quantity::FinalX | Quantity::Sinking => {
-                readable(f, 1e3 * value, "mm")
-            }
-            Quantity::Roll | Quantity::MissedRoll => readable(f, value.to_degrees(), "°"),
-            Quantity::Torque | Quantity::Moment => readable(f, value, "N m"),
-            Quantity::Thrust | Quantity::MissedYShare | Quantity::MissedRollShare => readable(f, 100.0 * value, "%"),
-            Quantity::TrackingError
-            | Quantity::FinalErrorX
-            | Quantity::ErrorX
-            | Quantity::ErrorY
-            | Quantity::MissedX
-            | Quantity::MissedY => {
-                write!(f, "{value:.1e} m")
-            }
-            Quantity::LostAt if value.is_infinite() => write!(f, "never"),
-            Quantity::LostAt => write!(f, "{value:.1} s"),
+            Reading::Millimetres => readable(f, 1e3 * value, "mm"),
+            Reading::Metres => write!(f, "{value:.1e} m"),
+            Reading::MillimetresPerSecond => readable(f, 1e3 * value, "mm/s"),
+            Reading::MetresPerSecond => write!(f, "{value:.1e} m/s"),
+            Reading::Degrees => readable(f, value.to_degrees(), "°"),
+            Reading::Radians => readable(f, value, "rad"),
+            Reading::RadiansPerSecond => readable(f, value, "rad/s"),
+            Reading::Newtons => readable(f, value, "N"),
+            Reading::NewtonMetres => readable(f, value, "N m"),
+            Reading::Percent => readable(f, 100.0 * value, "%"),
+            Reading::Seconds if value.is_infinite() => write!(f, "never"),
+            Reading::Seconds => write!(f, "{value:.1} s"),
         }
     }
 }

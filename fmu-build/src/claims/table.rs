@@ -2,8 +2,7 @@
 
 use std::fmt;
 
-use super::{Quantity, find};
-use crate::record::Recording;
+use super::{Claim, Quantity};
 
 /// A measured number in words, and whether it agrees with the thesis.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -18,11 +17,13 @@ pub struct Cell {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Row {
     /// What it is.
-    pub quantity: &'static str,
+    pub quantity: String,
     /// The statement of the thesis, if it makes one.
     pub thesis: Option<&'static str>,
     /// One measurement per column.
     pub cells: Vec<Cell>,
+    /// Why it does not agree, where that is known.
+    pub remark: Option<&'static str>,
 }
 
 /// One scenario.
@@ -43,6 +44,39 @@ pub struct Table {
     pub sections: Vec<Section>,
 }
 
+impl Row {
+    /// A quantity of which the thesis says nothing.
+    pub fn plain(quantity: Quantity, values: impl IntoIterator<Item = f64>) -> Self {
+        let cell = |value| Cell { text: quantity.show(value).to_string(), agrees: None };
+        Self {
+            quantity: quantity.label().to_owned(),
+            thesis: None,
+            cells: values.into_iter().map(cell).collect(),
+            remark: None,
+        }
+    }
+
+    /// Numbers beside a claim about them; ratios if the claim compares.
+    pub fn of(claim: &Claim, values: impl IntoIterator<Item = f64>) -> Self {
+        let show = |value: f64| match claim.compared_with {
+            None => claim.quantity.show(value).to_string(),
+            Some(_) if value.is_nan() => "–".to_owned(),
+            Some(_) if value.abs() < 0.01 => format!("{value:.0e} times"),
+            Some(_) => format!("{value:.2} times"),
+        };
+        let label = claim.quantity.label();
+        Self {
+            quantity: claim.compared_with.map_or(label.to_owned(), |other| format!("{label}, against {other}")),
+            thesis: Some(claim.thesis),
+            cells: values
+                .into_iter()
+                .map(|value| Cell { text: show(value), agrees: Some(claim.agrees(value)) })
+                .collect(),
+            remark: claim.deviation.map(|deviation| deviation.why),
+        }
+    }
+}
+
 impl Table {
     /// A table without rows.
     #[must_use]
@@ -50,30 +84,29 @@ impl Table {
         Self { columns: columns.into_iter().map(Into::into).collect(), sections: Vec::new() }
     }
 
-    /// Adds quantities from one recording per column, beside what the thesis says of this scenario.
-    pub fn add(&mut self, scenario: Option<&str>, title: &str, quantities: &[Quantity], recordings: &[&Recording]) {
-        let row = |&quantity: &Quantity| {
-            let claim = scenario.and_then(|scenario| find(scenario, quantity));
-            let cell = |recording: &&Recording| {
-                let value = quantity.measure(recording);
-                let agrees = claim.map(|claim| claim.agrees.contains(&value));
-                Cell { text: quantity.show(value).to_string(), agrees }
-            };
-            Row {
-                quantity: quantity.label(),
-                thesis: claim.map(|claim| claim.thesis),
-                cells: recordings.iter().map(cell).collect(),
-            }
-        };
-        self.sections.push(Section { title: title.to_owned(), rows: quantities.iter().map(row).collect() });
+    /// Adds a scenario.
+    pub fn add(&mut self, title: impl Into<String>, rows: Vec<Row>) {
+        self.sections.push(Section { title: title.into(), rows });
     }
 
     /// How many numbers stand beside a statement of the thesis, and how many of them agree.
     #[must_use]
     pub fn agreement(&self) -> (usize, usize) {
-        let rows = self.sections.iter().flat_map(|section| &section.rows);
-        let verdicts: Vec<bool> = rows.flat_map(|row| &row.cells).filter_map(|cell| cell.agrees).collect();
+        let verdicts: Vec<bool> = self.rows().flat_map(|row| &row.cells).filter_map(|cell| cell.agrees).collect();
         (verdicts.len(), verdicts.iter().filter(|&&agrees| agrees).count())
+    }
+
+    /// Why numbers do not agree, by the first word of the scenario's title.
+    pub fn remarks(&self) -> impl Iterator<Item = String> {
+        self.sections.iter().flat_map(|section| {
+            let scenario = section.title.split(' ').next().unwrap_or_default();
+            let remark = |row: &Row| row.remark.map(|why| format!("{scenario}, {}: {why}", row.quantity));
+            section.rows.iter().filter_map(remark).collect::<Vec<_>>()
+        })
+    }
+
+    fn rows(&self) -> impl Iterator<Item = &Row> {
+        self.sections.iter().flat_map(|section| &section.rows)
     }
 }
 

@@ -24,7 +24,7 @@ pub fn execute(out: &Path) -> Result<()> {
     let cases = run_all(&pair)?;
     let runs = || cases.iter().flat_map(|case| &case.runs);
     println!("\nThe pick-up of thesis 4.3, {} coupled runs of both FMUs\n", runs().count());
-    println!("{}\n", study::table(&cases));
+    println!("{}\n", study::pick_up_table(&cases.iter().map(Case::summary).collect::<Vec<_>>()));
     for run in runs() {
         if let Some(complaint) = run.complaint() {
             println!("{}: {complaint}", run.scenario.id);

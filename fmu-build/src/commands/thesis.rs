@@ -1,50 +1,40 @@
 //! Every simulation of the thesis, beside what it says.
 
 use std::path::Path;
+use std::time::Instant;
 
 use anyhow::Result;
-use fmu_build::coupling::Pair;
-use fmu_build::run::Run;
-use fmu_build::study::{self, Case, DISCRETIZATIONS};
-use uam::Structure;
+use fmu_build::study::{self, DISCRETIZATIONS, Outcome};
 use uam::scenarios::catalogue;
 
-use super::{Progress, build, folder, speed};
+use super::{Pairs, Progress};
 
 pub fn execute(out: &Path) -> Result<()> {
     let scenarios = catalogue()?;
-    let mut pairs: Vec<(Structure, Pair)> = Vec::new();
-    let mut cases = Vec::with_capacity(scenarios.len());
+    let pairs = Pairs::build(out, scenarios.iter().map(|scenario| scenario.structure))?;
     let points: f64 = scenarios.iter().map(|scenario| scenario.duration / scenario.step).sum();
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "only for the progress bar")]
-    let points = points as u64 * DISCRETIZATIONS.len() as u64;
-    let progress = Progress::new(points, "Simulating")?;
-    for scenario in scenarios {
-        let pair = pair(&mut pairs, scenario.structure, out)?;
-        cases.push(Case::run(&pair, scenario, &|| progress.point())?);
-    }
+    let progress = Progress::new(points as u64 * DISCRETIZATIONS.len() as u64, "Simulating")?;
+    let begin = Instant::now();
+    let summaries = study::run_all(scenarios, &|structure| pairs.of(structure), &|| progress.point());
+    let elapsed = begin.elapsed().as_secs_f64();
     progress.finish();
+    let summaries = summaries?;
 
-    let table = study::table(&cases);
+    let table = study::table(&summaries);
     let (statements, agreeing) = table.agreement();
     println!("{table}\n\n{agreeing} of {statements} numbers agree with the thesis.");
-    let runs: Vec<&Run> = cases.iter().flat_map(|case| &case.runs).collect();
-    for run in &runs {
-        if let Some(complaint) = run.complaint() {
-            println!("{}: {complaint}", run.scenario.id);
+    for remark in table.remarks() {
+        println!("  ✗ {remark}");
+    }
+    let outcomes =
+        || summaries.iter().flat_map(|summary| summary.outcomes.iter().map(move |outcome| (summary, outcome)));
+    for (summary, outcome) in outcomes() {
+        if let Some(complaint) = &outcome.complaint {
+            println!("{}: {complaint}", summary.scenario.id);
         }
     }
-    println!("{}", speed(&runs));
+    let simulated: f64 = outcomes().map(|(_, Outcome { simulated, .. })| simulated).sum();
+    println!("{} runs, {simulated:.0} s simulated in {elapsed:.1} s.", outcomes().count());
     Ok(())
-}
-
-/// The FMUs of a structure, built when they are needed for the first time.
-fn pair(pairs: &mut Vec<(Structure, Pair)>, structure: Structure, out: &Path) -> Result<Pair> {
-    if let Some((_, pair)) = pairs.iter().find(|(built, _)| *built == structure) {
-        return Ok(pair.clone());
-    }
-    let built = build(structure, &folder(out, structure))?;
-    let pair = Pair::open(&built.controller, &built.plant)?;
-    pairs.push((structure, pair.clone()));
-    Ok(pair)
 }

@@ -43,7 +43,7 @@ pub fn report(cases: &[Case]) -> Result<Report, Error> {
                 "inverse kinematics is " code { "euler" } "; the FMUs' default is " code { "exact" } ", and so are the figures."
             }
         },
-        table: study::table(cases),
+        table: study::pick_up_table(&cases.iter().map(Case::summary).collect::<Vec<_>>()),
         figures,
     })
 }

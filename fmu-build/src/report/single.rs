@@ -4,7 +4,7 @@ use maud::html;
 use uam::options::Choice;
 
 use super::{Error, Report, Series, figures, style};
-use crate::claims::{Quantity, Table};
+use crate::claims::{self, Claim, Quantity, Row, Table};
 use crate::coupling::Schedule;
 use crate::run::Run;
 
@@ -19,8 +19,16 @@ pub fn report(run: &Run, schedule: &Schedule) -> Result<Report, Error> {
     let discretization = scenario.parameters.ik.discretization.name();
     let as_in_thesis = schedule.stop() - schedule.start() == scenario.duration && schedule.step() == scenario.step;
     let mut table = Table::new([discretization]);
-    let claims_of = if as_in_thesis { Some(scenario.id.as_str()) } else { None };
-    table.add(claims_of, &scenario.id, &Quantity::ALL, &[&run.recording]);
+    let row = |quantity: Quantity| {
+        let value = quantity.measure(&run.recording);
+        let of_this = |claim: &&Claim| claim.quantity == quantity && claim.compared_with.is_none();
+        match claims::about(&scenario.id).find(of_this).filter(|_| as_in_thesis) {
+            Some(claim) => Some(Row::of(claim, [value])),
+            // Not a number: the vehicle has nothing of this kind.
+            None => (!value.is_nan()).then(|| Row::plain(quantity, [value])),
+        }
+    };
+    table.add(&scenario.id, Quantity::ALL.into_iter().filter_map(row).collect());
     let series = [Series { label: &scenario.id, paint: style::MAIN, run }];
     Ok(Report {
         title: format!("{}: {}", scenario.id, scenario.title),

@@ -3,28 +3,30 @@
 #![allow(dead_code, reason = "every test takes what it needs")]
 
 use std::path::Path;
-use std::sync::LazyLock;
+use std::sync::Mutex;
 
 use fmu_build::coupling::Pair;
 use fmu_build::{BuildOptions, Built, build};
 use uam::Structure;
-use uam::parameters::Balance;
 
-static BUILT: LazyLock<Built> = LazyLock::new(|| built(Structure::DEFAULT));
-static TWO_LINKS: LazyLock<Built> = LazyLock::new(|| built(Structure::new(2, Balance::None).unwrap()));
+/// Built so far.
+static PAIRS: Mutex<Vec<(Structure, &'static Pair)>> = Mutex::new(Vec::new());
 
-fn built(structure: Structure) -> Built {
+/// The two FMUs of a vehicle, loaded. Each is built once per test program, and stays.
+pub fn pair_of(structure: Structure) -> &'static Pair {
+    let mut pairs = PAIRS.lock().unwrap();
+    if let Some((_, pair)) = pairs.iter().find(|(built, _)| *built == structure) {
+        return pair;
+    }
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(env!("CARGO_CRATE_NAME"));
     let folder = folder.join(structure.to_string().replace(' ', "-"));
-    build(&BuildOptions::new(structure, folder), &|_| {}).unwrap()
-}
-
-/// The two FMUs of a vehicle with two links, loaded.
-pub fn two_links() -> Pair {
-    Pair::open(&TWO_LINKS.controller, &TWO_LINKS.plant).unwrap()
+    let Built { controller, plant, .. } = build(&BuildOptions::new(structure, folder), &|_| {}).unwrap();
+    let pair: &'static Pair = Box::leak(Box::new(Pair::open(&controller, &plant).unwrap()));
+    pairs.push((structure, pair));
+    pair
 }
 
 /// The two FMUs of the default vehicle, loaded.
 pub fn pair() -> Pair {
-    Pair::open(&BUILT.controller, &BUILT.plant).unwrap()
+    pair_of(Structure::DEFAULT).clone()
 }

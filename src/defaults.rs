@@ -2,13 +2,17 @@
 
 use std::f64::consts::PI;
 
-use super::THESIS_STEP;
 use crate::autopilot::{Autopilot, AutopilotMode, Gains};
 use crate::parameters::{
     Balance, BalanceElement, BaseModel, Counterweight, Discretization, InverseKinematics, Joint, Link, MAX_LINKS,
     MomentModel, Mount, Parameters, Payload, Resolution, Structure, Support, Uav,
 };
 use crate::reference::{Circle, Leg, Profile, Reference, ReferenceKind};
+
+/// Duration of the payload pick-up of thesis chapter 4 \[s\].
+pub const PICK_UP_DURATION: f64 = 30.0;
+/// Communication step of the thesis \[s\].
+pub const THESIS_STEP: f64 = 1e-3;
 
 /// Gains "pick" of the thesis (table 4.1): altitude.
 const PICK_ALTITUDE: Gains = Gains { kp: 37.0, ki: 8.0, kd: 18.0 };
