@@ -4,6 +4,7 @@
 //! follows from momentum and rates at every instant (thesis 2.5 and 3.6). Plant and controller advance
 //! the same [`State`] by the same [`Dynamics::advance`].
 
+mod account;
 mod advance;
 mod base;
 mod contact;
@@ -11,13 +12,15 @@ mod instant;
 mod law;
 mod loads;
 mod moment;
+mod outboard;
 mod rates;
 mod runge_kutta;
 
-use std::ops::{Add, Mul};
+use std::ops::Add;
 
 use nalgebra::{SVector, Vector3};
 
+pub use account::Account;
 pub use instant::{Instant, Trend};
 pub use law::Node;
 pub use loads::{Load, Loads};
@@ -29,7 +32,7 @@ use crate::kinematics::Configuration;
 use crate::memory;
 use crate::momentum::Twist;
 use crate::parameters::{BaseModel, MomentModel, Parameters, Structure, Support};
-use crate::planar::{Turn, Vec2};
+use crate::planar::{Turn, Vec2, vec2};
 use crate::vehicle::{Balancer, Vehicle};
 
 /// Shortest sample time of an autopilot that is not continuous \[s\].
@@ -190,68 +193,32 @@ impl<const N: usize> Motion<N> {
     }
 }
 
-/// Integrals over a step, from which mean forces and torques follow.
+/// Impulses during a step, from which mean forces and torques follow.
 #[derive(Debug, Clone, Copy)]
-pub struct Impulse<const N: usize> {
+pub struct Impulse {
     /// Of the rotors' force on the UAV \[N s\].
     pub thrust: Vec2,
-    /// Of the thrust along the UAV's own axis \[N s\].
-    pub axial_thrust: f64,
     /// Of the rotors' torque on the UAV \[N m s\].
     pub torque: f64,
     /// Of the support force on the payload \[N s\].
     pub support: f64,
-    /// For each coordinate, of what changes the momentum of what it moves, its motor excepted: moments about
-    /// the joint, or forces along the slide, of weight, outer loads and its own motion \[N m s, N s\].
-    pub outboard: SVector<f64, N>,
-    /// Of the moments of weight and outer loads on what the UAV carries, about the UAV's centre of mass, less
-    /// its velocity x momentum, as the moment model has it \[N m s\]; computed unless `outboard` is.
-    pub carried: f64,
 }
 
-memory!(Impulse<N> { thrust, axial_thrust, torque, support, outboard, carried });
+memory!(Impulse { thrust, torque, support });
 
-impl<const N: usize> Impulse<N> {
+impl Impulse {
     /// No impulse.
-    #[must_use]
-    pub fn zero() -> Self {
-        Self {
-            thrust: Vec2::zeros(),
-            axial_thrust: 0.0,
-            torque: 0.0,
-            support: 0.0,
-            outboard: SVector::zeros(),
-            carried: 0.0,
-        }
-    }
+    pub const NONE: Self = Self { thrust: vec2(0.0, 0.0), torque: 0.0, support: 0.0 };
 }
 
-impl<const N: usize> Add for Impulse<N> {
+impl Add for Impulse {
     type Output = Self;
 
     fn add(self, other: Self) -> Self {
         Self {
             thrust: self.thrust + other.thrust,
-            axial_thrust: self.axial_thrust + other.axial_thrust,
             torque: self.torque + other.torque,
             support: self.support + other.support,
-            outboard: self.outboard + other.outboard,
-            carried: self.carried + other.carried,
-        }
-    }
-}
-
-impl<const N: usize> Mul<f64> for Impulse<N> {
-    type Output = Self;
-
-    fn mul(self, factor: f64) -> Self {
-        Self {
-            thrust: self.thrust * factor,
-            axial_thrust: self.axial_thrust * factor,
-            torque: self.torque * factor,
-            support: self.support * factor,
-            outboard: self.outboard * factor,
-            carried: self.carried * factor,
         }
     }
 }

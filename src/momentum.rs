@@ -65,13 +65,17 @@ pub struct MomentumMatrix<const N: usize> {
     pub columns: [Twist; N],
     /// First moment of what lies outboard of each joint, a balance element's included, about it \[kg m\].
     pub outboard_first: [Vec2; N],
+    /// Centre of mass of the whole system \[m\].
+    pub center: Vec2,
+    /// Inverse mass of the whole system \[1/kg\].
+    lightness: f64,
     /// Moment of inertia of the whole system about its centre of mass, inverse \[1/(kg m2)\].
     compliance: f64,
     /// Moment of inertia of the whole system about the UAV's centre of mass \[kg m2\].
     inertia: f64,
 }
 
-memory!(MomentumMatrix<N> { mass, first, columns, outboard_first, compliance, inertia });
+memory!(MomentumMatrix<N> { mass, first, columns, outboard_first, center, lightness, compliance, inertia });
 
 impl<const N: usize> MomentumMatrix<N> {
     /// Sums up all masses, from the tip to the UAV.
@@ -111,8 +115,10 @@ impl<const N: usize> MomentumMatrix<N> {
                 columns[N - 1] = Twist { linear: perp(own), angular: body.second };
             }
         }
-        let compliance = mass / (inertia * mass - first.norm_squared());
-        Self { mass, first, columns, outboard_first, compliance, inertia }
+        let lightness = 1.0 / mass;
+        let center = first * lightness;
+        let compliance = 1.0 / (inertia - first.dot(&center));
+        Self { mass, first, columns, outboard_first, center, lightness, compliance, inertia }
     }
 
     /// H_m q_dot: momentum from the rates alone.
@@ -133,9 +139,8 @@ impl<const N: usize> MomentumMatrix<N> {
     /// H_b^-1 h: the motion of the base that has the momentum `h`, or its acceleration under a load.
     #[must_use]
     pub fn base_response(&self, h: Twist) -> Twist {
-        let center = self.first / self.mass;
-        let angular = (h.angular - cross(center, h.linear)) * self.compliance;
-        Twist { linear: h.linear / self.mass - perp(center) * angular, angular }
+        let angular = (h.angular - cross(self.center, h.linear)) * self.compliance;
+        Twist { linear: h.linear * self.lightness - perp(self.center) * angular, angular }
     }
 }
 

@@ -45,44 +45,62 @@ impl Turn {
         Self { cos, sin }
     }
 
-    /// By `angle` \[rad\] that is usually small: a polynomial, exact to rounding below 0.1 rad, saves two
-    /// thirds of the time of the general functions.
+    /// By the angle with this cosine and sine.
+    #[must_use]
+    pub const fn with(cos: f64, sin: f64) -> Self {
+        Self { cos, sin }
+    }
+
+    /// Cosine and sine of the angle.
+    #[must_use]
+    pub const fn cos_sin(self) -> [f64; 2] {
+        [self.cos, self.sin]
+    }
+
+    /// By `angle` \[rad\] that is usually small: short polynomials, exact to rounding below 0.03 rad, take a
+    /// fifth of the time of the general functions.
+    #[inline]
     #[must_use]
     pub fn by_small(angle: f64) -> Self {
-        if angle.abs() > 0.1 {
+        if angle.abs() > 0.03 {
             return Self::by(angle);
         }
         let x = angle * angle;
-        let sin = angle * (1.0 + x * (-1.0 / 6.0 + x * (1.0 / 120.0 + x * (-1.0 / 5040.0 + x * (1.0 / 362_880.0)))));
-        let cos = 1.0 + x * (-0.5 + x * (1.0 / 24.0 + x * (-1.0 / 720.0 + x * (1.0 / 40_320.0 - x / 3_628_800.0))));
+        let sin = angle - angle * x * (1.0 / 6.0 - x * (1.0 / 120.0 - x * (1.0 / 5040.0)));
+        let cos = 1.0 - x * (0.5 - x * (1.0 / 24.0 - x * (1.0 / 720.0)));
         Self { cos, sin }
     }
 
     /// This turn and then `other`.
+    #[inline]
     #[must_use]
     pub fn then(self, other: Self) -> Self {
         Self { cos: self.cos * other.cos - self.sin * other.sin, sin: self.sin * other.cos + self.cos * other.sin }
     }
 
     /// `v` turned.
+    #[inline]
     #[must_use]
     pub fn apply(self, v: Vec2) -> Vec2 {
         vec2(self.cos * v.x - self.sin * v.y, self.sin * v.x + self.cos * v.y)
     }
 
     /// `v` turned back.
+    #[inline]
     #[must_use]
     pub fn undo(self, v: Vec2) -> Vec2 {
         vec2(self.cos * v.x + self.sin * v.y, -self.sin * v.x + self.cos * v.y)
     }
 
     /// The direction straight down, turned: where a link with this absolute angle points, (sin, -cos).
+    #[inline]
     #[must_use]
     pub fn down(self) -> Vec2 {
         vec2(self.sin, -self.cos)
     }
 
     /// The direction straight up, turned: where the thrust of a UAV with this roll points, (-sin, cos).
+    #[inline]
     #[must_use]
     pub fn up(self) -> Vec2 {
         vec2(-self.sin, self.cos)

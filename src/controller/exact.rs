@@ -9,7 +9,7 @@ use super::planner::Plan;
 use super::prediction::Prediction;
 use super::resolution::{Problem, Task};
 use super::{Controller, Status};
-use crate::dynamics::{Loads, Motion};
+use crate::dynamics::{Account, Loads, Motion};
 use crate::error::Result;
 use crate::planar::Vec2;
 
@@ -39,9 +39,10 @@ impl<const N: usize> Controller<N> {
         for iteration in 0..=ITERATIONS {
             let mut end = self.now.situation;
             let motion = Motion::constant(plan.rate);
-            let impulse = dynamics.advance::<false>(&mut end, &motion, &Loads::default(), t, horizon)?;
+            let mut impulse = 0.0;
+            dynamics.advance(&mut end, &motion, &Loads::CALM, t, horizon, Account::Carried(&mut impulse))?;
             plan.end = Prediction::at_end(dynamics, end);
-            let moment = self.now.carried + impulse.carried - plan.end.carried;
+            let moment = self.now.carried + impulse - plan.end.carried;
             plan.moment_residual = moment / horizon;
             let missing = target - plan.end.end_effector();
             let miss = missing.norm();

@@ -11,7 +11,7 @@ use super::response::Response;
 use super::{Inputs, Outputs, Planner, Rates, Status};
 use crate::autopilot::AutopilotMode;
 use crate::bytes::{Memory, Tape};
-use crate::dynamics::{Dynamics, Load, Loads, Motion, Situation};
+use crate::dynamics::{Account, Dynamics, Load, Loads, Motion, Situation};
 use crate::error::{Error, Result};
 use crate::options::Choice;
 use crate::parameters::{Discretization, Parameters, Resolution, Structure};
@@ -237,7 +237,7 @@ impl<const N: usize> Controller<N> {
         } else {
             let motion = Motion::constant(self.rate);
             let mut end = self.now.situation;
-            self.dynamics.advance::<false>(&mut end, &motion, &Loads::default(), t, size)?;
+            self.dynamics.advance(&mut end, &motion, &Loads::CALM, t, size, Account::None)?;
             Prediction::at_end(&self.dynamics, end)
         };
         self.now.situation.state.check(t + size)

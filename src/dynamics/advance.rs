@@ -4,11 +4,11 @@
 use nalgebra::{SVector, Vector3};
 
 use super::law::{Flow, Scene};
-use super::{Dynamics, Impulse, Load, Loads, Motion, Node, Situation, State, in_inertial_frame};
+use super::{Account, Dynamics, Impulse, Load, Loads, Motion, Node, Situation, State, in_inertial_frame};
 use crate::autopilot::AutopilotMode;
 use crate::error::{Error, Result};
 use crate::kinematics::Configuration;
-use crate::planar::{Turn, vec2};
+use crate::planar::{Turn, Vec2, vec2};
 use crate::vehicle::Balancer;
 
 /// Longest internal step \[s\]; a millisecond that is not quite one, by rounding, is not cut in two.
@@ -27,39 +27,50 @@ const TUMBLING: f64 = 3.0;
 /// Most internal steps in one step, which then takes a tenth of a second; more are taken for a mistake.
 const MOST_STEPS: f64 = 2e5;
 
+/// So often the turns of links and UAV, sums of small turns, are made to agree with their angles \[1/s\].
+const REFRESHED: f64 = 16.0;
+
 /// An instant this close to a sample of the autopilot is the sample \[s\].
 const SAME_INSTANT: f64 = 1e-9;
 
 impl<const N: usize> Dynamics<N> {
     /// Advances `situation` from time `t`, counted from the start, by `size` \[s\] under the imposed
-    /// `motion` and `loads`; `TORQUES`: the impulses outboard of the joints are wanted, too.
+    /// `motion` and `loads`, and adds up what `account` asks for.
     ///
     /// # Errors
     /// If the step needs more than 200000 internal steps.
-    pub fn advance<const TORQUES: bool>(
+    pub fn advance(
         &self,
         situation: &mut Situation<N>,
         motion: &Motion<N>,
         loads: &Loads,
         t: f64,
         size: f64,
-    ) -> Result<Impulse<N>> {
-        let Situation { state, turn, node } = situation;
-        let start = state.position;
-        let mut impulse = Impulse::zero();
+        mut account: Account<'_, N>,
+    ) -> Result<Impulse> {
         // A sample still sees the velocities before the jump of the rates.
-        let mut until_sample = self.sample(state, &loads.begin, t);
+        let mut until_sample = self.sample(&mut situation.state, &loads.begin, t);
         let sample_time = if until_sample.is_finite() { self.autopilot.sample_time } else { f64::INFINITY };
-        let mut flow = state.flow();
+        let mut flow = situation.flow(self.base);
+        let Situation { state, turn, node } = situation;
+        let (start, momentum) = (state.position, state.momentum);
         node.move_at(motion.rate);
-        state.contact = self.touches(&flow, *turn, node, state.held);
+        state.contact = self.touches(&flow, node, state.held);
         let mut elapsed = 0.0;
         let mut stuck = false;
         let mut room = Load::NONE;
         while elapsed < size {
             let left = size - elapsed;
-            let roll_rate = self.base_velocity(&flow, *turn, node).angular;
-            let longest = self.longest_internal_step(node, motion, roll_rate, state.contact, size);
+            let scene = Scene {
+                loads,
+                elapsed,
+                held: state.held,
+                contact: state.contact,
+                sampled: state.sampled,
+                motion: motion.after(elapsed),
+            };
+            let k_1 = self.law(&flow, node, loads.present(elapsed, &mut room), &scene);
+            let longest = self.longest_internal_step(node, motion, k_1[2], state.contact, size);
             let most = MOST_STEPS * longest.min(sample_time);
             if left > most {
                 return Err(Error::StepTooLong { size, most });
@@ -67,58 +78,62 @@ impl<const N: usize> Dynamics<N> {
             // A sample at the end belongs to the step that begins there.
             let piece = if until_sample < left - SAME_INSTANT { until_sample } else { left };
             let length = if piece > longest { piece / (piece / longest).ceil() } else { piece };
-            let scene = Scene {
-                loads,
-                elapsed,
-                held: state.held,
-                contact: state.contact,
-                sampled: state.sampled,
-                near: (flow[2], *turn),
-                motion: motion.after(elapsed),
-            };
-            // The last piece ends the step, whatever the sum of the pieces rounds to.
-            let last = length == left;
-            let end = if last {
-                Configuration::new(&self.vehicle, &(start + motion.way(size)))
-            } else {
-                scene.configuration_after(&self.vehicle, node, length)
-            };
             let mut covered = length;
-            let mut step = self.internal_step::<TORQUES>(&flow, node, end, length, &scene);
+            let mut step = self.internal_step(&flow, k_1, node, length, &scene);
             // Right after switching, rounding must not switch back for ever.
-            let within = if stuck { None } else { self.switches_within::<TORQUES>(&flow, node, length, &scene, &step) };
+            let within = if stuck { None } else { self.switches_within(&flow, node, length, &scene, &step) };
             if let Some(bracket) = within {
-                covered = self.switching_instant::<TORQUES>(&flow, node, bracket, &scene);
-                step = self.stepped::<TORQUES>(&flow, node, covered, &scene);
+                covered = self.switching_instant(&flow, k_1, node, bracket, &scene);
+                step = self.internal_step(&flow, k_1, node, covered, &scene);
                 state.contact = !state.contact;
             }
             stuck = covered == 0.0;
-            elapsed = if last && within.is_none() { size } else { elapsed + covered };
+            self.enter(&mut account, &flow, node, &step, covered, &scene);
+            // The last piece ends the step, whatever the sum of the pieces rounds to.
+            elapsed = if length == left && within.is_none() { size } else { elapsed + covered };
             until_sample -= covered;
             (flow, *node) = (step.flow, step.node);
-            *turn = self.base.turn(flow[2]);
-            impulse = impulse + step.impulse;
             if until_sample <= 0.0 && elapsed < size {
-                self.settle(state, &flow, *turn, node);
+                self.settle(state, &flow, node);
                 until_sample = self.sample(state, loads.present(elapsed, &mut room), t + elapsed);
                 (flow[6], flow[7]) = (state.integrals.x, state.integrals.y);
             }
         }
-        self.settle(state, &flow, *turn, node);
         state.position = start + motion.way(size);
+        if refreshed(t) != refreshed(t + size) {
+            let configuration = Configuration::new(&self.vehicle, &state.position);
+            *node = Node::new(&self.vehicle, configuration, state.held, motion.rate_after(size));
+            [flow[8], flow[9]] = Turn::by(flow[2]).cos_sin();
+        }
+        *turn = self.arm_turn(&flow);
+        self.settle(state, &flow, node);
         state.rate = motion.rate_after(size);
+        let mut impulse = Impulse { thrust: Vec2::zeros(), torque: flow[10], support: flow[11] };
         if self.on_carriage() {
             let h = node.matrix.of_base(self.base_velocity(&flow, Turn::NONE, node)) + node.arm;
-            impulse.axial_thrust = h.linear.y - flow[4];
-            impulse.thrust = vec2(0.0, impulse.axial_thrust);
+            impulse.thrust = vec2(0.0, h.linear.y - flow[4]);
             impulse.torque = h.angular - flow[5];
             (state.momentum.y, state.momentum.z) = (h.linear.y, h.angular);
+        } else {
+            // What the momentum has gained, and no other force gave.
+            let load = loads.present(0.5 * size, &mut room);
+            let others = load.base_force + load.tip_force + vec2(0.0, -node.matrix.mass * self.vehicle.gravity);
+            impulse.thrust = (state.momentum - momentum).xy() - others * size - vec2(0.0, impulse.support);
+        }
+        if let Account::Carried(sum) = account
+            && self.carried_load_is_a_balance()
+        {
+            *sum = state.momentum.z
+                - momentum.z
+                - impulse.torque
+                - loads.present(0.5 * size, &mut room).base_torque * size;
         }
         Ok(impulse)
     }
 
     /// Writes pose, momentum, integrals and velocities into `state`.
-    fn settle(&self, state: &mut State<N>, flow: &Flow, turn: Turn, node: &Node<N>) {
+    fn settle(&self, state: &mut State<N>, flow: &Flow, node: &Node<N>) {
+        let turn = self.arm_turn(flow);
         state.pose = Vector3::new(flow[0], flow[1], flow[2]);
         state.momentum = Vector3::new(flow[3], flow[4], flow[5]);
         state.integrals = vec2(flow[6], flow[7]);
@@ -175,6 +190,12 @@ impl<const N: usize> Dynamics<N> {
         let mobility = 1.0 / node.matrix.mass + lever * lever / vehicle.uav_inertia;
         longest.min(SUPPORT_RESOLUTION / (self.support.stiffness * mobility).sqrt())
     }
+}
+
+/// How often turns have been refreshed up to time `t` \[s\].
+#[allow(clippy::cast_possible_truncation)] // saturates in late times that nobody reaches
+fn refreshed(t: f64) -> i64 {
+    (t * REFRESHED) as i64
 }
 
 /// When the autopilot takes its sample with this number, counted from 0 \[s\].

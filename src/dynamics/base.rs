@@ -56,11 +56,6 @@ impl BaseModel {
         if self.turns_arm() { Turn::by(roll) } else { Turn::NONE }
     }
 
-    /// The turn of the UAV, and of its thrust, at the angle `roll` \[rad\]; `arm` is that of the arm's frame.
-    pub(super) fn uav_turn(self, roll: f64, arm: Turn) -> Turn {
-        if self.turns_arm() { arm } else { Turn::by_small(roll) }
-    }
-
     /// Whether the thrust is as large as all vertical loads, whatever the altitude control says (2.16).
     pub(super) fn thrust_carries_all(self) -> bool {
         self == Self::HorizontalThrust

@@ -3,10 +3,9 @@
 //! The support pushes with k (y_s - y_payload) and never pulls (thesis 4.1). The force has a kink where
 //! contact switches, so a step is cut there, at an instant found by iterating on the step's length.
 
-use super::Dynamics;
 use super::law::{Flow, Node, Scene};
 use super::runge_kutta::Internal;
-use crate::planar::Turn;
+use super::{Dynamics, in_inertial_frame};
 
 /// Gaps below this are zero \[m\]: their force is rounding.
 const NO_GAP: f64 = 1e-13;
@@ -16,17 +15,22 @@ const ITERATIONS: usize = 60;
 
 impl<const N: usize> Dynamics<N> {
     /// Whether the support pushes on the held payload right after the present instant.
-    pub(super) fn touches(&self, flow: &Flow, turn: Turn, node: &Node<N>, held: bool) -> bool {
+    pub(super) fn touches(&self, flow: &Flow, node: &Node<N>, held: bool) -> bool {
         if !held || self.support.stiffness == 0.0 {
             return false;
         }
+        let turn = self.arm_turn(flow);
         let gap = self.gap(flow, turn, node);
-        if gap.abs() > NO_GAP { gap < 0.0 } else { self.gap_rate(flow, turn, node) < 0.0 }
+        if gap.abs() > NO_GAP {
+            return gap < 0.0;
+        }
+        let velocity = in_inertial_frame(turn, self.base_velocity(flow, turn, node));
+        self.gap_rate(turn, node, &velocity) < 0.0
     }
 
     /// Length of an internal step, no longer than `size`, within which contact switches, or `None` if it
     /// lasts, or stays away, all through `whole`, the step of length `size`.
-    pub(super) fn switches_within<const TORQUES: bool>(
+    pub(super) fn switches_within(
         &self,
         flow: &Flow,
         node: &Node<N>,
@@ -43,23 +47,27 @@ impl<const N: usize> Dynamics<N> {
         }
         // Both ends lie on the same side; in between there may be a way across and back.
         let start = self.margin(flow, node, scene).max(0.0);
-        let rate = |flow: &Flow, node: &Node<N>| scene.side() * self.gap_rate(flow, self.turn(flow, scene), node);
-        let dip = lowest([start, end], [rate(flow, node), rate(&whole.flow, &whole.node)], size)?;
-        let middle = self.stepped::<TORQUES>(flow, node, dip, scene);
+        let rate = |flow: &Flow, k: &Flow, node: &Node<N>| {
+            scene.side() * self.gap_rate(self.arm_turn(flow), node, &k.fixed_rows::<3>(0).into())
+        };
+        let [k_1, k_4] = &whole.slopes;
+        let dip = lowest([start, end], [rate(flow, k_1, node), rate(&whole.flow, k_4, &whole.node)], size)?;
+        let middle = self.internal_step(flow, *k_1, node, dip, scene);
         (self.margin(&middle.flow, &middle.node, scene) < -NO_GAP).then_some(dip)
     }
 
     /// The instant within an internal step of length `size` at which contact switches.
     #[cold]
-    pub(super) fn switching_instant<const TORQUES: bool>(
+    pub(super) fn switching_instant(
         &self,
         flow: &Flow,
+        k_1: Flow,
         node: &Node<N>,
         size: f64,
         scene: &Scene<'_, N>,
     ) -> f64 {
         let margin_after = |length: f64| {
-            let step = self.stepped::<TORQUES>(flow, node, length, scene);
+            let step = self.internal_step(flow, k_1, node, length, scene);
             self.margin(&step.flow, &step.node, scene)
         };
         let (mut low, mut high) = ((0.0, self.margin(flow, node, scene)), (size, margin_after(size)));
@@ -96,7 +104,7 @@ impl<const N: usize> Dynamics<N> {
 
     /// Distance \[m\] from switching: positive while the present state of contact lasts.
     fn margin(&self, flow: &Flow, node: &Node<N>, scene: &Scene<'_, N>) -> f64 {
-        scene.side() * self.gap(flow, self.turn(flow, scene), node)
+        scene.side() * self.gap(flow, self.arm_turn(flow), node)
     }
 }
 

@@ -38,7 +38,6 @@ impl<const N: usize> Dynamics<N> {
             held: state.held,
             contact: state.contact,
             sampled: state.sampled,
-            near: (state.pose.z, situation.turn),
             motion: Motion::constant(state.rate),
         }
     }
@@ -48,9 +47,10 @@ impl<const N: usize> Dynamics<N> {
     #[must_use]
     pub fn at_end(&self, situation: &Situation<N>, slope: &SVector<f64, N>, load: &Load) -> Instant {
         let Situation { state, turn, node } = situation;
-        let flow = state.flow();
+        let flow = situation.flow(self.base);
         let scene = Self::scene(situation);
-        let (rate, impulse) = self.law_at::<false>(&flow, node, *turn, situation.base(), load, &scene);
+        let rate = self.law_at(&flow, node, situation.base(), load, &scene);
+        let thrust = self.control(&flow, &state.velocity, load, &scene).x;
         let load = Twist {
             linear: turn.undo(vec2(rate[3], rate[4])),
             angular: rate[5] + cross(state.velocity.xy(), state.momentum.xy()),
@@ -61,23 +61,22 @@ impl<const N: usize> Dynamics<N> {
         } else {
             in_inertial_frame(*turn, node.matrix.base_response(load - kept))
         };
-        Instant { acceleration, control: vec2(impulse.axial_thrust, impulse.torque), support: impulse.support }
+        Instant { acceleration, control: vec2(thrust, rate[10]), support: rate[11] }
     }
 
     /// How momentum changes at time `t` at the beginning of a step, as seen with the velocities just before
     /// it: the explicit part of the thesis' Euler step. Takes a sample of the autopilot if it is due.
     pub fn at_beginning(&self, situation: &mut Situation<N>, loads: &Loads, t: f64) -> Trend {
         self.sample(&mut situation.state, &loads.begin, t);
-        let flow = situation.state.flow();
-        let Situation { state, turn, node } = situation;
-        state.contact = self.touches(&flow, *turn, node, state.held);
+        let flow = situation.flow(self.base);
+        situation.state.contact = self.touches(&flow, &situation.node, situation.state.held);
         let scene = Self::scene(situation);
-        let Situation { turn, node, .. } = &*situation;
-        let (rate, impulse) = self.law_at::<false>(&flow, node, *turn, situation.base(), &loads.begin, &scene);
+        let v = situation.base();
+        let rate = self.law_at(&flow, &situation.node, v, &loads.begin, &scene);
         Trend {
             momentum: Vector3::new(rate[3], rate[4], rate[5]),
             integrals: vec2(rate[6], rate[7]),
-            carried: impulse.carried,
+            carried: self.carried_load(&flow, &situation.node, v, &loads.begin, &scene),
         }
     }
 }

@@ -2,19 +2,35 @@
 
 use nalgebra::{SVector, Vector3};
 
-use super::{Dynamics, Impulse, Load, Loads, Motion, State, in_inertial_frame};
+use super::{Dynamics, Load, Loads, Motion, Situation, State, in_inertial_frame};
 use crate::autopilot::AutopilotMode;
 use crate::kinematics::{Configuration, Posture};
 use crate::memory;
-use crate::momentum::{MomentumMatrix, Twist, outboard};
+use crate::momentum::{MomentumMatrix, Twist};
+use crate::parameters::BaseModel;
 use crate::planar::{Turn, Vec2, cross, perp, vec2};
-use crate::vehicle::{Balancer, Vehicle};
+use crate::vehicle::Vehicle;
 
-/// x, y, roll, p_x, p_y, K, integral of the altitude error, integral of the roll error.
+/// x, y, roll; p_x, p_y, K; integrals of altitude and roll error; cosine and sine of the roll; impulses of the
+/// rotors' torque and of the support force.
 ///
-/// On an ideal carriage p_y and K are no states: they follow from the rates. There these entries collect
-/// the impulses of all but the carriage, so that p_y and K less the entries is what the carriage gave.
-pub(super) type Flow = SVector<f64, 8>;
+/// That the turn is integrated with the rest, and made good after every step ([`turned`]), spares the stages
+/// a third of their time. On an ideal carriage p_y and K are no states: they follow from the rates. There these
+/// entries collect the impulses of all but the carriage, so that p_y and K less the entries is what the
+/// carriage gave.
+pub(super) type Flow = SVector<f64, 12>;
+
+/// The turn of the UAV.
+#[inline]
+fn uav_turn(y: &Flow) -> Turn {
+    Turn::with(y[8], y[9])
+}
+
+/// Makes the turn in `flow` agree with the roll, given that it did in the flow `before`.
+#[inline]
+pub(super) fn turned(flow: &mut Flow, before: &Flow) {
+    [flow[8], flow[9]] = uav_turn(before).then(Turn::by_small(flow[2] - before[2])).cos_sin();
+}
 
 /// The arm at one instant, in the UAV frame.
 #[derive(Debug, Clone, Copy)]
@@ -71,8 +87,6 @@ pub(super) struct Scene<'a, const N: usize> {
     pub contact: bool,
     /// Thrust and torque of a sampled autopilot.
     pub sampled: Vec2,
-    /// A roll close to the present one \[rad\], and the turn by it.
-    pub near: (f64, Turn),
     /// The imposed rates, from the beginning of the internal step on.
     pub motion: Motion<N>,
 }
@@ -82,19 +96,13 @@ impl<const N: usize> Scene<'_, N> {
     pub fn side(&self) -> f64 {
         if self.contact { -1.0 } else { 1.0 }
     }
-
-    /// Where the arm is after the time `t` from `node` on.
-    pub fn configuration_after(&self, vehicle: &Vehicle<N>, node: &Node<N>, t: f64) -> Configuration<N> {
-        node.configuration.displaced(vehicle, &self.motion.way(t))
-    }
 }
 
 impl<const N: usize> Dynamics<N> {
-    /// The turn from the UAV frame into the inertial frame.
+    /// The turn of the arm's frame.
     #[inline]
-    pub(super) fn turn(&self, y: &Flow, scene: &Scene<'_, N>) -> Turn {
-        let (roll, turn) = scene.near;
-        if self.base.turns_arm() { turn.then(Turn::by_small(y[2] - roll)) } else { turn }
+    pub(super) fn arm_turn(&self, y: &Flow) -> Turn {
+        if self.base.turns_arm() { uav_turn(y) } else { Turn::NONE }
     }
 
     /// Motion of the base with the momentum `h`, of which `arm` is the arm's; axes of the UAV frame.
@@ -125,7 +133,7 @@ impl<const N: usize> Dynamics<N> {
 
     /// Thrust \[N\] and torque \[N m\], without what holds an ideal base.
     #[inline]
-    fn control(&self, y: &Flow, velocity: &Vector3<f64>, load: &Load, scene: &Scene<'_, N>) -> Vec2 {
+    pub(super) fn control(&self, y: &Flow, velocity: &Vector3<f64>, load: &Load, scene: &Scene<'_, N>) -> Vec2 {
         if self.on_carriage() {
             return Vec2::zeros();
         }
@@ -139,76 +147,50 @@ impl<const N: usize> Dynamics<N> {
         }
     }
 
-    /// Rates of the flow, and of the impulses.
-    pub(super) fn law<const TORQUES: bool>(
-        &self,
-        y: &Flow,
-        node: &Node<N>,
-        load: &Load,
-        scene: &Scene<'_, N>,
-    ) -> (Flow, Impulse<N>) {
-        let turn = self.turn(y, scene);
-        let v = self.base_velocity(y, turn, node);
-        self.law_at::<TORQUES>(y, node, turn, v, load, scene)
+    /// Rates of the flow.
+    #[inline]
+    pub(super) fn law(&self, y: &Flow, node: &Node<N>, load: &Load, scene: &Scene<'_, N>) -> Flow {
+        let v = self.base_velocity(y, self.arm_turn(y), node);
+        self.law_at(y, node, v, load, scene)
     }
 
     /// [`Dynamics::law`] for a base that moves with `v`, axes of the UAV frame.
-    pub(super) fn law_at<const TORQUES: bool>(
-        &self,
-        y: &Flow,
-        node: &Node<N>,
-        turn: Turn,
-        v: Twist,
-        load: &Load,
-        scene: &Scene<'_, N>,
-    ) -> (Flow, Impulse<N>) {
-        let (vehicle, posture) = (&self.vehicle, &node.posture);
+    #[inline]
+    pub(super) fn law_at(&self, y: &Flow, node: &Node<N>, v: Twist, load: &Load, scene: &Scene<'_, N>) -> Flow {
+        let turn = self.arm_turn(y);
         let velocity = in_inertial_frame(turn, v);
         let mut control = self.control(y, &velocity, load, scene);
-        let support = if scene.contact { -self.support.stiffness * self.gap(y, turn, node) } else { 0.0 };
+        let support = self.support_force(y, turn, node, scene);
 
-        let push = load.tip_force + vec2(0.0, support);
-        let carried = load.base_force + push + vec2(0.0, -node.matrix.mass * vehicle.gravity);
+        let weight = vec2(0.0, -node.matrix.mass * self.vehicle.gravity);
+        let others = load.base_force + load.tip_force + vec2(0.0, support) + weight;
         if self.base.thrust_carries_all() {
-            control.x = -carried.y;
+            control.x = -others.y;
         }
-        let thrust = self.base.uav_turn(y[2], turn).up() * control.x;
-        let force = thrust + carried;
-
-        // Moments in the UAV frame; `push_moment` is that of tip load and support about the origin.
-        let gravity = turn.undo(vec2(0.0, -vehicle.gravity));
-        let (tip, lift) = (turn.undo(load.tip_force), turn.undo(vec2(0.0, support)));
-        let push_moment = load.tip_torque + cross(posture.end_effector, tip) + cross(posture.payload, lift);
-        let moment = control.y + load.base_torque + cross(node.matrix.first, gravity) + push_moment;
-
-        let mut impulse = Impulse::zero();
-        impulse.thrust = thrust;
-        impulse.axial_thrust = control.x;
-        impulse.torque = control.y;
-        impulse.support = support;
-        if TORQUES {
-            let outboard = outboard(vehicle, posture, scene.held, v, &node.rate);
-            for (i, outer) in outboard.iter().enumerate() {
-                let pushed = push_moment - cross(posture.joint[i], tip + lift);
-                let weighed = cross(node.matrix.outboard_first[i], gravity);
-                impulse.outboard[i] = weighed + pushed + outer.drift;
-            }
-            if let Some(balancer) = vehicle.balancer {
-                let weighed = match balancer {
-                    Balancer::Counterweight(slider) => slider.mass * gravity.x,
-                    Balancer::Element(_) => cross(node.matrix.outboard_first[N - 1], gravity),
-                };
-                impulse.outboard[N - 1] = weighed + outboard[N - 1].drift;
-            }
-        } else {
-            let outer = moment - control.y - load.base_torque;
-            impulse.carried = outer - self.carried_transport(node, turn, v);
-        }
-
+        let force = uav_turn(y).up() * control.x + others;
+        let moment = control.y + load.base_torque + self.carried_moment(turn, node, load, support);
         let angular = moment - self.base.transport(velocity.xy(), vec2(y[3], y[4]), node.arm);
+
         let error = if self.continuous() { vec2(y[1] - load.altitude, y[2] - load.roll) } else { Vec2::zeros() };
-        let rate = Flow::from([velocity.x, velocity.y, velocity.z, force.x, force.y, angular, error.x, error.y]);
-        (rate, impulse)
+        let turning = vec2(-y[9], y[8]) * velocity.z;
+        Flow::from([
+            velocity.x, velocity.y, velocity.z, force.x, force.y, angular, error.x, error.y, turning.x, turning.y,
+            control.y, support,
+        ])
+    }
+
+    /// Moment of weight and outer loads on what the UAV carries, about the UAV's centre of mass \[N m\].
+    #[inline]
+    pub(super) fn carried_moment(&self, turn: Turn, node: &Node<N>, load: &Load, support: f64) -> f64 {
+        let posture = &node.posture;
+        let pushed = cross(turn.apply(posture.end_effector), load.tip_force) + turn.apply(posture.payload).x * support;
+        load.tip_torque + pushed - turn.apply(node.matrix.first).x * self.vehicle.gravity
+    }
+
+    /// Force of the support on the payload, upwards \[N\].
+    #[inline]
+    pub(super) fn support_force(&self, y: &Flow, turn: Turn, node: &Node<N>, scene: &Scene<'_, N>) -> f64 {
+        if scene.contact { -self.support.stiffness * self.gap(y, turn, node) } else { 0.0 }
     }
 
     /// Height of the payload above the unloaded support \[m\].
@@ -216,17 +198,18 @@ impl<const N: usize> Dynamics<N> {
         y[1] + turn.apply(node.posture.payload).y - self.support.height
     }
 
-    /// How fast the payload leaves the support \[m/s\].
-    pub(super) fn gap_rate(&self, y: &Flow, turn: Turn, node: &Node<N>) -> f64 {
-        let v = self.base.carried(self.base_velocity(y, turn, node));
-        turn.apply(node.velocity_at(&self.vehicle, node.posture.payload, v)).y
+    /// How fast the payload leaves the support while the UAV moves with `velocity`, inertial frame \[m/s\].
+    pub(super) fn gap_rate(&self, turn: Turn, node: &Node<N>, velocity: &Vector3<f64>) -> f64 {
+        let v = Twist { linear: turn.undo(velocity.xy()), angular: velocity.z };
+        turn.apply(node.velocity_at(&self.vehicle, node.posture.payload, self.base.carried(v))).y
     }
 }
 
-impl<const N: usize> State<N> {
-    /// The part of the state that the laws of motion integrate.
-    pub(super) fn flow(&self) -> Flow {
-        let (pose, h) = (&self.pose, &self.momentum);
-        Flow::from([pose.x, pose.y, pose.z, h.x, h.y, h.z, self.integrals.x, self.integrals.y])
+impl<const N: usize> Situation<N> {
+    /// The part of the state that the laws of motion integrate, no impulses so far.
+    pub(super) fn flow(&self, base: BaseModel) -> Flow {
+        let State { pose, momentum: h, integrals, .. } = &self.state;
+        let [cos, sin] = if base.turns_arm() { self.turn } else { Turn::by(pose.z) }.cos_sin();
+        Flow::from([pose.x, pose.y, pose.z, h.x, h.y, h.z, integrals.x, integrals.y, cos, sin, 0.0, 0.0])
     }
 }

@@ -13,9 +13,10 @@
 //! | `sliding_base` | 3.3, (3.13)   | the horizontal velocity                         |
 //! | `free_base`    | 3.6, (3.23)   | all in which the arm takes part by the base model |
 
-use super::{Dynamics, Node};
+use super::law::{Flow, Scene};
+use super::{Dynamics, Load, Node};
 use crate::momentum::Twist;
-use crate::parameters::MomentModel;
+use crate::parameters::{BaseModel, MomentModel};
 use crate::planar::{Turn, cross, vec2};
 
 impl<const N: usize> Dynamics<N> {
@@ -39,10 +40,16 @@ impl<const N: usize> Dynamics<N> {
         node.matrix.of_base(v) - uav + arm
     }
 
-    /// How fast its angular momentum falls because the UAV's centre of mass moves: `v_0` x `p_c`.
-    #[inline]
-    pub(super) fn carried_transport(&self, node: &Node<N>, turn: Turn, v: Twist) -> f64 {
+    /// The right-hand side of the law above without the moment on the UAV, where the base moves with `v` \[N m\].
+    pub(super) fn carried_load(&self, y: &Flow, node: &Node<N>, v: Twist, load: &Load, scene: &Scene<'_, N>) -> f64 {
+        let turn = self.arm_turn(y);
         let momentum = self.carried_momentum(node, turn, v, node.arm);
-        cross(self.felt(v, turn).linear, momentum.linear)
+        let moment = self.carried_moment(turn, node, load, self.support_force(y, turn, node, scene));
+        moment - cross(self.felt(v, turn).linear, momentum.linear)
+    }
+
+    /// Whether its integral follows from changes of momentum, because the UAV feels all that the arm does.
+    pub(super) fn carried_load_is_a_balance(&self) -> bool {
+        self.base == BaseModel::Full && self.moment_model == MomentModel::FreeBase
     }
 }

@@ -55,7 +55,7 @@ impl<const N: usize> Dynamics<N> {
         momentum.z -= cross(state.velocity.xy(), state.momentum.xy());
 
         let tip = tip_acceleration(&self.vehicle, posture, base, state.velocity.z, &node.rate, slope);
-        let leaving = if state.contact { self.gap_rate(&state.flow(), *turn, node) } else { 0.0 };
+        let leaving = if state.contact { self.gap_rate(*turn, node, &state.velocity) } else { 0.0 };
         Rates { tip_velocity: turn.apply(tip), momentum, support: -self.support.stiffness * leaving }
     }
 

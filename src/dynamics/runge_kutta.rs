@@ -4,59 +4,51 @@
 //! cheap. Methods of order 6 need twice as many instants; at the steps of a millisecond that a
 //! communication with a controller asks for, order 4 already leaves nothing but rounding.
 
-use super::law::{Flow, Node, Scene};
-use super::{Dynamics, Impulse};
-use crate::kinematics::Configuration;
+use super::Dynamics;
+use super::law::{Flow, Node, Scene, turned};
 
 /// Result of an internal step.
 pub(super) struct Internal<const N: usize> {
     /// At the end.
     pub flow: Flow,
+    /// The arm in the middle.
+    pub middle: Node<N>,
     /// The arm at the end.
     pub node: Node<N>,
-    /// Over the step.
-    pub impulse: Impulse<N>,
+    /// Rates of the flow at the beginning and, as seen by the last stage, at the end.
+    pub slopes: [Flow; 2],
 }
 
 impl<const N: usize> Dynamics<N> {
-    /// One step of length `size` from `flow`, where the arm is at `node`, under the motion of `scene`.
-    pub(super) fn stepped<const TORQUES: bool>(
+    /// One step of length `size` from `flow` with the rates `k_1`, where the arm is at `node`, under the motion of
+    /// `scene`.
+    pub(super) fn internal_step(
         &self,
         flow: &Flow,
+        k_1: Flow,
         node: &Node<N>,
         size: f64,
         scene: &Scene<'_, N>,
     ) -> Internal<N> {
-        let end = scene.configuration_after(&self.vehicle, node, size);
-        self.internal_step::<TORQUES>(flow, node, end, size, scene)
-    }
-
-    /// One step of length `size` from `flow`, where the arm is at `node`, to where it is at `end`.
-    pub(super) fn internal_step<const TORQUES: bool>(
-        &self,
-        flow: &Flow,
-        node: &Node<N>,
-        end: Configuration<N>,
-        size: f64,
-        scene: &Scene<'_, N>,
-    ) -> Internal<N> {
-        let (vehicle, half) = (&self.vehicle, 0.5 * size);
-        let middle = scene.configuration_after(vehicle, node, half);
-        let middle = Node::new(vehicle, middle, scene.held, scene.motion.rate_after(half));
-        let end = Node::new(vehicle, end, scene.held, scene.motion.rate_after(size));
+        let half = 0.5 * size;
+        let middle = self.node_after(node, half, scene);
+        let end = self.node_after(node, size, scene);
 
         let mut room = None;
-        let [load_1, load_2, load_4] = scene.loads.at([scene.elapsed, size], &mut room);
+        let [_, load_2, load_4] = scene.loads.at([scene.elapsed, size], &mut room);
 
-        let (k_1, impulse_1) = self.law::<TORQUES>(flow, node, load_1, scene);
-        let (k_2, impulse_2) = self.law::<TORQUES>(&(flow + k_1 * half), &middle, load_2, scene);
-        let (k_3, impulse_3) = self.law::<TORQUES>(&(flow + k_2 * half), &middle, load_2, scene);
-        let (k_4, impulse_4) = self.law::<TORQUES>(&(flow + k_3 * size), &end, load_4, scene);
-        Internal {
-            flow: flow + (k_1 + (k_2 + k_3) * 2.0 + k_4) * (size / 6.0),
-            node: end,
-            impulse: (impulse_1 + (impulse_2 + impulse_3) * 2.0 + impulse_4) * (size / 6.0),
-        }
+        let k_2 = self.law(&(flow + k_1 * half), &middle, load_2, scene);
+        let k_3 = self.law(&(flow + k_2 * half), &middle, load_2, scene);
+        let k_4 = self.law(&(flow + k_3 * size), &end, load_4, scene);
+        let mut after = flow + (k_1 + (k_2 + k_3) * 2.0 + k_4) * (size / 6.0);
+        turned(&mut after, flow);
+        Internal { flow: after, middle, node: end, slopes: [k_1, k_4] }
+    }
+
+    /// The arm after the time `t` from `node` on.
+    fn node_after(&self, node: &Node<N>, t: f64, scene: &Scene<'_, N>) -> Node<N> {
+        let configuration = node.configuration.displaced(&self.vehicle, &scene.motion.way(t));
+        Node::new(&self.vehicle, configuration, scene.held, scene.motion.rate_after(t))
     }
 }
 
@@ -78,20 +70,19 @@ mod tests {
         let loads = Loads::default();
         let end_in = |steps: u32| {
             let size = 0.4 / f64::from(steps);
-            let (mut flow, mut node) = (start.state.flow(), start.node);
+            let (mut flow, mut node) = (start.flow(BaseModel::Full), start.node);
             node.move_at(motion.rate);
+            let scene = Scene {
+                loads: &loads,
+                elapsed: 0.0,
+                held: false,
+                contact: false,
+                sampled: crate::planar::Vec2::zeros(),
+                motion,
+            };
             for _ in 0..steps {
-                let scene = Scene {
-                    loads: &loads,
-                    elapsed: 0.0,
-                    held: false,
-                    contact: false,
-                    sampled: crate::planar::Vec2::zeros(),
-                    near: (flow[2], crate::planar::Turn::by(flow[2])),
-                    motion,
-                };
-                let end = scene.configuration_after(&dynamics.vehicle, &node, size);
-                let step = dynamics.internal_step::<false>(&flow, &node, end, size, &scene);
+                let k_1 = dynamics.law(&flow, &node, &loads.begin, &scene);
+                let step = dynamics.internal_step(&flow, k_1, &node, size, &scene);
                 (flow, node) = (step.flow, step.node);
             }
             flow

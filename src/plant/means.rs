@@ -7,7 +7,7 @@
 use nalgebra::{SVector, Vector3};
 
 use super::Outputs;
-use crate::dynamics::{Dynamics, Impulse, Load, Situation};
+use crate::dynamics::{Account, Dynamics, Impulse, Load, Situation};
 use crate::memory;
 use crate::momentum::outboard;
 use crate::planar::{Vec2, vec2};
@@ -19,7 +19,10 @@ const SHORTEST: f64 = 1e-9;
 /// Impulses since the last means, and the motion at that time.
 #[derive(Debug, Clone)]
 pub(super) struct Means<const N: usize> {
-    impulse: Impulse<N>,
+    impulse: Impulse,
+    /// Of what each coordinate moves, its motor excepted \[N m s, N s\]; see [`Account`].
+    outboard_impulse: SVector<f64, N>,
+    /// Since then \[s\].
     time: f64,
     /// Velocity of the UAV \[m/s, m/s, rad/s\].
     velocity: Vector3<f64>,
@@ -29,13 +32,14 @@ pub(super) struct Means<const N: usize> {
     payload: Vec2,
 }
 
-memory!(Means<N> { impulse, time, velocity, outboard, payload });
+memory!(Means<N> { impulse, outboard_impulse, time, velocity, outboard, payload });
 
 impl<const N: usize> Means<N> {
     /// Everything at rest.
     pub(super) fn at_rest() -> Self {
         Self {
-            impulse: Impulse::zero(),
+            impulse: Impulse::NONE,
+            outboard_impulse: SVector::zeros(),
             time: 0.0,
             velocity: Vector3::zeros(),
             outboard: SVector::zeros(),
@@ -43,9 +47,14 @@ impl<const N: usize> Means<N> {
         }
     }
 
+    /// Where the integrals of a step go that only means need.
+    pub(super) fn account(&mut self) -> Account<'_, N> {
+        Account::Outboard(&mut self.outboard_impulse)
+    }
+
     /// Adds the impulse of a step.
-    pub(super) fn add(&mut self, impulse: &Impulse<N>, size: f64) {
-        self.impulse = self.impulse + *impulse;
+    pub(super) fn add(&mut self, impulse: Impulse, size: f64) {
+        self.impulse = self.impulse + impulse;
         self.time += size;
     }
 
@@ -72,11 +81,11 @@ impl<const N: usize> Means<N> {
             + vec2(0.0, vehicle.uav_mass * vehicle.gravity);
         outputs.transmitted_moment = change.z * vehicle.uav_inertia - impulse.torque * per_time - load.base_torque;
         if dynamics.on_carriage() {
-            (outputs.thrust, outputs.torque) = (impulse.axial_thrust * per_time, impulse.torque * per_time);
+            (outputs.thrust, outputs.torque) = (impulse.thrust.y * per_time, impulse.torque * per_time);
         }
 
         let momentum = outboard_momentum(vehicle, situation, state.held);
-        let effort = (momentum - self.outboard - impulse.outboard) * per_time;
+        let effort = (momentum - self.outboard - self.outboard_impulse) * per_time;
         outputs.effort[..N].copy_from_slice(effort.as_slice());
 
         let payload = if state.held { payload_momentum(vehicle, situation) } else { Vec2::zeros() };
@@ -86,7 +95,7 @@ impl<const N: usize> Means<N> {
         } else {
             Vec2::zeros()
         };
-        *self = Self { impulse: Impulse::zero(), time: 0.0, velocity: state.velocity, outboard: momentum, payload };
+        *self = Self { velocity: state.velocity, outboard: momentum, payload, ..Self::at_rest() };
     }
 }
 

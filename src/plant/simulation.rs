@@ -92,7 +92,8 @@ impl<const N: usize> Simulation for Plant<N> {
         };
         let loads =
             Loads { begin: load(inputs), slope: inputs.slopes.as_ref().and_then(|slopes| slopes.load.as_ref()) };
-        let impulse = self.dynamics.advance::<true>(&mut self.situation, &motion, &loads, t, size)?;
+        let account = self.means.account();
+        let impulse = self.dynamics.advance(&mut self.situation, &motion, &loads, t, size, account)?;
         self.situation.state.check(t + size)?;
 
         self.write_state(outputs);
@@ -108,7 +109,7 @@ impl<const N: usize> Simulation for Plant<N> {
             acceleration: now.acceleration,
             control: self.dynamics.control_rate(&self.situation, &now.acceleration, &loads, size),
         };
-        self.means.add(&impulse, size);
+        self.means.add(impulse, size);
         self.means.write(&self.dynamics, &self.situation, loads.present(0.5 * size, &mut room), outputs);
         Ok(())
     }
