@@ -178,6 +178,8 @@ pub struct Joint {
     pub start: f64,
     /// Largest rate that the controller commands \[rad/s\].
     pub rate_limit: f64,
+    /// Weight of the rate in the norm of the rates.
+    pub weight: f64,
 }
 
 /// The sliding counterweight, for instance the battery (thesis 3.8).
@@ -248,6 +250,8 @@ options! {
     pub enum Resolution {
         #[doc = " Smallest joint rates (right pseudo-inverse of the generalized Jacobian)."]
         MinimumNorm = "minimum_norm",
+        #[doc = " Towards a small moment of weight (gradient projection, thesis 3.1)."]
+        Gradient = "gradient",
         #[doc = " No moment on the UAV by the moment model (extended Jacobian, thesis 3.2, 3.3 and 3.6)."]
         ExtendedJacobian = "extended_jacobian",
     }
@@ -284,6 +288,8 @@ pub struct InverseKinematics {
     pub base_model: BaseModel,
     /// Use of redundancy.
     pub resolution: Resolution,
+    /// Rates per gradient of the squared distance of centres of mass \[rad/(m2 s)\].
+    pub gradient_gain: f64,
     /// Prediction of the moment on the UAV.
     pub moment_model: MomentModel,
     /// Prediction of the coming interval.

@@ -77,3 +77,5 @@ pub static NEWTON_METRE_PER_RADIAN: Unit = unit("N.m/rad", [1, 2, -2, -1]);
 pub static NEWTON_METRE_PER_RADIAN_SECOND: Unit = unit("N.m/(rad.s)", [1, 2, -3, -1]);
 /// Roll gain kd.
 pub static NEWTON_METRE_SECOND_PER_RADIAN: Unit = unit("N.m.s/rad", [1, 2, -1, -1]);
+/// Gain of the gradient projection.
+pub static RADIAN_PER_METRE2_SECOND: Unit = unit("rad/(m2.s)", [0, -2, -1, 1]);

@@ -41,7 +41,7 @@ impl<const N: usize> Problem<N> {
     }
 
     fn resolve(&self, with_task: bool) -> PseudoInverse<N> {
-        resolve(&self.path, self.velocity, with_task.then_some(&self.task), REACH)
+        resolve(&self.path, self.velocity, &SVector::zeros(), with_task.then_some(&self.task), REACH)
     }
 }
 
@@ -137,7 +137,7 @@ proptest! {
 #[test]
 fn the_stretched_arm_gives_up_what_it_cannot_do() {
     let path = SMatrix::<f64, 2, 2>::from_columns(&[vec2(0.26, 0.0), vec2(0.13, 0.0)]);
-    let found = resolve(&path, vec2(0.1, 0.1), None, 0.26);
+    let found = resolve(&path, vec2(0.1, 0.1), &SVector::zeros(), None, 0.26);
     let factor = 0.1 / (0.26_f64.powi(2) + 0.13_f64.powi(2));
     assert_close(found.rate.as_slice(), &[0.26 * factor, 0.13 * factor], 1e-14, "rate");
     assert!(found.path_damped && found.min_singular_value == 0.0);
@@ -148,7 +148,7 @@ fn the_stretched_arm_gives_up_what_it_cannot_do() {
 fn a_task_that_contradicts_the_path_gives_way() {
     let path = SMatrix::<f64, 2, 3>::from_columns(&[vec2(0.3, 0.1), vec2(0.1, 0.2), vec2(-0.1, 0.2)]);
     let task = Task { row: path.row(0).transpose(), value: 1.0 };
-    let found = resolve(&path, vec2(0.1, -0.1), Some(&task), REACH);
+    let found = resolve(&path, vec2(0.1, -0.1), &SVector::zeros(), Some(&task), REACH);
     assert!(found.task_damped && !found.path_damped);
     assert_close((path * found.rate).as_slice(), &[0.1, -0.1], 1e-8, "velocity");
 }

@@ -56,8 +56,10 @@ impl<const N: usize> Controller<N> {
         let response = &explicit.response;
         let wanted = explicit.situation.turn.undo(velocity) - response.end_effector_free;
         let moment = Task { row: response.carried, value: explicit.carried - response.carried_free };
-        let Resolved { rate, status, min_singular_value } =
-            self.resolver.solve(&Problem { path: response.jacobian, velocity: wanted, moment });
+        let Resolved { rate, status, min_singular_value } = self.resolver.solve(
+            &self.dynamics.vehicle,
+            &Problem { beginning: &self.now.situation, path: response.jacobian, velocity: wanted, moment },
+        );
         let end = explicit.end(&self.dynamics, &rate, horizon);
         Plan {
             rate,

@@ -62,7 +62,10 @@ impl<const N: usize> Controller<N> {
             let response = self.response(&end);
             let velocity = response.jacobian * plan.rate + end.turn.undo(missing / horizon);
             let moment = Task { row: response.carried, value: response.carried.dot(&plan.rate) + moment };
-            let resolved = self.resolver.solve(&Problem { path: response.jacobian, velocity, moment });
+            let beginning = &self.now.situation;
+            let resolved = self
+                .resolver
+                .solve(&dynamics.vehicle, &Problem { beginning, path: response.jacobian, velocity, moment });
             (plan.rate, plan.status) = (resolved.rate, resolved.status);
             plan.min_singular_value = resolved.min_singular_value;
         }

@@ -150,7 +150,7 @@ impl<const N: usize> Controller<N> {
 
     fn tune(&mut self, parameters: &Parameters) {
         self.dynamics.tune(&parameters.autopilot);
-        self.resolver.tune(&self.dynamics.vehicle, parameters);
+        self.resolver = Resolver::new(&self.dynamics.vehicle, parameters);
     }
 
     /// Takes the payload over in the prediction if it is time: the host is told at the same instant.

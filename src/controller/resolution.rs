@@ -3,15 +3,18 @@
 //! Whatever the discretization, it hands over the same linear [`Problem`]; each method stands in a file of its
 //! own and answers with [`Resolved`].
 
-mod extended_jacobian;
-mod minimum_norm;
+mod gradient;
 mod pseudo_inverse;
+mod weights;
 
 use nalgebra::{SMatrix, SVector};
 
 pub use pseudo_inverse::{PATH_THRESHOLD, PseudoInverse, resolve};
 
+use weights::Weights;
+
 use super::Status;
+use crate::dynamics::Situation;
 use crate::parameters::{Parameters, Resolution};
 use crate::planar::Vec2;
 use crate::vehicle::Vehicle;
@@ -27,7 +30,9 @@ pub struct Task<const N: usize> {
 
 /// What is asked of the rates of one interval, linear in them.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Problem<const N: usize> {
+pub(super) struct Problem<'a, const N: usize> {
+    /// Where the interval begins.
+    pub beginning: &'a Situation<N>,
     /// Generalized Jacobian \[m\].
     pub path: SMatrix<f64, 2, N>,
     /// `path` * rate = `velocity` follows the path \[m/s\].
@@ -53,22 +58,23 @@ pub(super) struct Resolver<const N: usize> {
     kind: Resolution,
     /// Length of the stretched arm \[m\].
     reach: f64,
+    weights: Weights<N>,
+    gradient_gain: f64,
     rate_limit: SVector<f64, N>,
 }
 
 impl<const N: usize> Resolver<N> {
     pub fn new(vehicle: &Vehicle<N>, parameters: &Parameters) -> Self {
-        let mut resolver =
-            Self { kind: parameters.ik.resolution, reach: vehicle.reach(), rate_limit: SVector::zeros() };
-        resolver.tune(vehicle, parameters);
-        resolver
-    }
-
-    /// Takes over what may change during a run.
-    pub fn tune(&mut self, vehicle: &Vehicle<N>, parameters: &Parameters) {
-        // The counterweight holds still and needs no limit.
-        self.rate_limit =
-            SVector::from_fn(|i, _| if i < vehicle.links { parameters.joints[i].rate_limit } else { f64::INFINITY });
+        Self {
+            kind: parameters.ik.resolution,
+            reach: vehicle.reach(),
+            weights: Weights::new(parameters, vehicle.links),
+            gradient_gain: parameters.ik.gradient_gain,
+            // The counterweight holds still and needs no limit.
+            rate_limit: SVector::from_fn(|i, _| {
+                if i < vehicle.links { parameters.joints[i].rate_limit } else { f64::INFINITY }
+            }),
+        }
     }
 
     /// Whether the method asks for rates without moment on the UAV.
@@ -77,11 +83,16 @@ impl<const N: usize> Resolver<N> {
     }
 
     /// The rates that the method chooses.
-    pub fn solve(&self, problem: &Problem<N>) -> Resolved<N> {
-        match self.kind {
-            Resolution::MinimumNorm => self.limited(&minimum_norm::solve(problem, self.reach)),
-            Resolution::ExtendedJacobian => self.limited(&extended_jacobian::solve(problem, self.reach)),
-        }
+    pub fn solve(&self, vehicle: &Vehicle<N>, problem: &Problem<'_, N>) -> Resolved<N> {
+        let Problem { beginning, path, velocity, moment } = problem;
+        let (preferred, task) = match self.kind {
+            // The smallest rates: right pseudo-inverse of the generalized Jacobian (thesis 1.8).
+            Resolution::MinimumNorm => (SVector::zeros(), None),
+            Resolution::Gradient => (gradient::preferred(vehicle, beginning, self.gradient_gain), None),
+            // One more row below the generalized Jacobian (thesis 3.2, 3.3 and 3.6).
+            Resolution::ExtendedJacobian => (SVector::zeros(), Some(moment)),
+        };
+        self.limited(&self.weights.resolve(path, *velocity, &preferred, task, self.reach))
     }
 
     /// Scales rates down so that none exceeds its limit, and sums up how they came about.

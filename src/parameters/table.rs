@@ -265,15 +265,35 @@ pub fn declare_controller<D: AsMut<Parameters>>(table: &mut Table<D>, structure:
             "When the payload is grasped, counted from the start; negative: held from the start",
             |d, _| &mut d.as_mut().payload.grasp_time,
         );
+    table.tunable().real(
+        "ik.gradient_gain",
+        &unit::RADIAN_PER_METRE2_SECOND,
+        Bounds::ANY,
+        "With the resolution gradient: joint rates per gradient of the squared horizontal distance between the centres \
+         of mass of the UAV and of what it carries; negative: towards a small distance",
+        |d, _| &mut d.as_mut().ik.gradient_gain,
+    );
     for i in 0..structure.links {
         let n = i + 1;
-        table.tunable().at(i).real(
-            format!("joint[{n}].rate_limit"),
-            &unit::RADIAN_PER_SECOND,
-            Bounds::POSITIVE,
-            format!("Largest rate commanded to joint {n}; where it binds, all rates are scaled down together"),
-            |d, i| &mut d.as_mut().joints[i].rate_limit,
-        );
+        table
+            .tunable()
+            .at(i)
+            .real(
+                format!("joint[{n}].rate_limit"),
+                &unit::RADIAN_PER_SECOND,
+                Bounds::POSITIVE,
+                format!("Largest rate commanded to joint {n}; where it binds, all rates are scaled down together"),
+                |d, i| &mut d.as_mut().joints[i].rate_limit,
+            )
+            .real(
+                format!("joint[{n}].weight"),
+                &unit::ONE,
+                Bounds::POSITIVE,
+                format!(
+                    "Weight of joint {n} in the norm of the rates that is kept small; only ratios of weights count"
+                ),
+                |d, i| &mut d.as_mut().joints[i].weight,
+            );
     }
     table.fixed().choice("reference.kind", "What the end effector follows", |d, _| &mut d.as_mut().reference.kind);
     for j in 0..LEGS {

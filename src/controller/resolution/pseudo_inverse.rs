@@ -30,31 +30,47 @@ pub struct PseudoInverse<const N: usize> {
     pub task_damped: bool,
 }
 
-/// Smallest rates with `path` * rate = `velocity` and, if possible beside it, with `task`.
+/// The Gram matrix J J^T of a path by its eigenvalues and its first eigenvector.
+pub(super) struct Spectrum {
+    largest: f64,
+    /// Square of the smallest singular value of J.
+    pub smallest: f64,
+    /// The direction in which the arm moves most easily.
+    strong: Vec2,
+}
+
+impl Spectrum {
+    pub fn new<const N: usize>(path: &SMatrix<f64, 2, N>) -> Self {
+        let (x, y) = (path.row(0), path.row(1));
+        let (xx, xy, yy) = (x.norm_squared(), x.dot(&y), y.norm_squared());
+        // The determinant as a sum of squares (Cauchy-Binet) does not cancel.
+        let mut determinant = 0.0;
+        for i in 0..N {
+            for j in 0..i {
+                determinant += cross(path.column(i).into(), path.column(j).into()).powi(2);
+            }
+        }
+        let largest = 0.5 * (xx + yy) + (0.25 * (xx - yy) * (xx - yy) + xy * xy).sqrt();
+        let smallest = if largest > 0.0 { determinant / largest } else { 0.0 };
+        let strong = if xx > yy { Vec2::new(largest - yy, xy) } else { Vec2::new(xy, largest - xx) };
+        Self { largest, smallest, strong: strong.try_normalize(f64::MIN_POSITIVE).unwrap_or_else(Vec2::x) }
+    }
+}
+
+/// The rates nearest to the `preferred` ones with `path` * rate = `velocity` and, if possible beside it, with
+/// `task`.
 ///
 /// `path`: 2 x N \[m\], `velocity`: \[m/s\], `reach`: length of the stretched arm \[m\].
 #[must_use]
 pub fn resolve<const N: usize>(
     path: &SMatrix<f64, 2, N>,
     velocity: Vec2,
+    preferred: &SVector<f64, N>,
     task: Option<&Task<N>>,
     reach: f64,
 ) -> PseudoInverse<N> {
-    // The Gram matrix J J^T; its determinant as a sum of squares (Cauchy-Binet) does not cancel.
-    let (x, y) = (path.row(0), path.row(1));
-    let (xx, xy, yy) = (x.norm_squared(), x.dot(&y), y.norm_squared());
-    let mut determinant = 0.0;
-    for i in 0..N {
-        for j in 0..i {
-            determinant += cross(path.column(i).into(), path.column(j).into()).powi(2);
-        }
-    }
-    let largest = 0.5 * (xx + yy) + (0.25 * (xx - yy) * (xx - yy) + xy * xy).sqrt();
-    let smallest = if largest > 0.0 { determinant / largest } else { 0.0 };
-
-    // Its eigenvectors: the directions in which the arm moves easily and hardly. Each is damped on its own.
-    let strong = if xx > yy { Vec2::new(largest - yy, xy) } else { Vec2::new(xy, largest - xx) };
-    let strong = strong.try_normalize(f64::MIN_POSITIVE).unwrap_or_else(Vec2::x);
+    // The directions in which the arm moves easily and hardly: each is damped on its own.
+    let Spectrum { largest, smallest, strong } = Spectrum::new(path);
     let weak = perp(strong);
     let threshold = PATH_THRESHOLD * reach;
     let min_singular_value = smallest.sqrt();
@@ -65,7 +81,7 @@ pub fn resolve<const N: usize>(
     let lift =
         |w: Vec2| path.transpose() * (strong * (strong.dot(&w) * gain_strong) + weak * (weak.dot(&w) * gain_weak));
 
-    let mut rate = lift(velocity);
+    let mut rate = preferred + lift(velocity - path * preferred);
     let mut task_damped = false;
     if let Some(task) = task {
         let free = task.row - lift(path * task.row);
