@@ -2,6 +2,7 @@
 
 mod euler;
 mod exact;
+mod limits;
 mod planner;
 mod prediction;
 mod resolution;
@@ -28,10 +29,14 @@ options! {
         TaskDamped = "task_damped",
         #[doc = " The path itself is given up in part: the arm is close to a singular configuration."]
         PathDamped = "path_damped",
-        #[doc = " Rates are scaled down to the limit."]
+        #[doc = " Rates are scaled down to the limit, and the path is given up in part."]
         RateLimited = "rate_limited",
         #[doc = " An error left over, or a jump of the reference, is being made good, at a bounded speed."]
         CatchingUp = "catching_up",
+        #[doc = " Limits bind: the path is followed, at the expense of the moment on the UAV (least_squares)."]
+        TaskLimited = "task_limited",
+        #[doc = " Limits bind, and the path is given up in part: they allow nothing nearer to it (least_squares)."]
+        PathLimited = "path_limited",
         #[doc = " The end of the interval is off the reference: it is too long for the motion in it."]
         Inexact = "inexact",
     }

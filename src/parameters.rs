@@ -180,6 +180,12 @@ pub struct Joint {
     pub rate_limit: f64,
     /// Weight of the rate in the norm of the rates.
     pub weight: f64,
+    /// Largest change of the commanded rate per time \[rad/s2\].
+    pub acceleration_limit: f64,
+    /// Smallest angle \[rad\].
+    pub lower: f64,
+    /// Largest angle \[rad\].
+    pub upper: f64,
 }
 
 /// The sliding counterweight, for instance the battery (thesis 3.8).
@@ -193,6 +199,12 @@ pub struct Counterweight {
     pub height: f64,
     /// Position along the UAV's x axis at the start \[m\].
     pub start: f64,
+    /// How far it slides to both sides \[m\].
+    pub stroke: f64,
+    /// Largest rate that the controller commands \[m/s\]; 0: it is locked.
+    pub rate_limit: f64,
+    /// Largest change of the commanded rate per time \[m/s2\].
+    pub acceleration_limit: f64,
 }
 
 /// The balance element: a body that turns about the UAV's centre of mass, for instance a disc, or a mass on
@@ -254,6 +266,8 @@ options! {
         Gradient = "gradient",
         #[doc = " No moment on the UAV by the moment model (extended Jacobian, thesis 3.2, 3.3 and 3.6)."]
         ExtendedJacobian = "extended_jacobian",
+        #[doc = " As little moment on the UAV as limits of rate, acceleration and position allow (thesis 3.7, 3.8, 4.4)."]
+        LeastSquares = "least_squares",
     }
 }
 
@@ -292,6 +306,8 @@ pub struct InverseKinematics {
     pub gradient_gain: f64,
     /// Prediction of the moment on the UAV.
     pub moment_model: MomentModel,
+    /// What a rate of a joint costs beside the squared moment on the UAV \[(N m)2 s/rad\].
+    pub rate_penalty: f64,
     /// Prediction of the coming interval.
     pub discretization: Discretization,
 }
@@ -357,6 +373,15 @@ impl Parameters {
                         found,
                     });
                 }
+            }
+        }
+        for (i, Joint { lower, upper, .. }) in self.joints.iter().enumerate().take(structure.links) {
+            if lower > upper {
+                return Err(Error::Inconsistent {
+                    name: format!("joint[{}].upper", i + 1),
+                    expected: format!("not less than joint[{}].lower = {lower}", i + 1),
+                    found: upper.to_string(),
+                });
             }
         }
         self.reference.check()

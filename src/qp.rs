@@ -129,6 +129,11 @@ pub enum Place {
     Upper,
 }
 
+impl Place {
+    /// All of them.
+    pub const ALL: [Self; 5] = [Self::Lower, Self::Below, Self::Zero, Self::Above, Self::Upper];
+}
+
 /// Where all variables are: a good guess where those of a similar problem are.
 pub type Places = [Place; MAX_VARIABLES];
 

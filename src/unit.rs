@@ -79,3 +79,5 @@ pub static NEWTON_METRE_PER_RADIAN_SECOND: Unit = unit("N.m/(rad.s)", [1, 2, -3,
 pub static NEWTON_METRE_SECOND_PER_RADIAN: Unit = unit("N.m.s/rad", [1, 2, -1, -1]);
 /// Gain of the gradient projection.
 pub static RADIAN_PER_METRE2_SECOND: Unit = unit("rad/(m2.s)", [0, -2, -1, 1]);
+/// Weight of a joint rate beside the square of a moment.
+pub static NEWTON2_METRE2_SECOND_PER_RADIAN: Unit = unit("N2.m2.s/rad", [2, 4, -3, -1]);

@@ -122,8 +122,7 @@ fn nasty(random: &mut Random) -> Case {
 
 /// Guesses that have nothing to do with the problem.
 fn any_guess(random: &mut Random) -> Places {
-    const ALL: [Place; 5] = [Place::Lower, Place::Below, Place::Zero, Place::Above, Place::Upper];
-    std::array::from_fn(|_| ALL[random.between(0.0, 4.999) as usize])
+    std::array::from_fn(|_| Place::ALL[random.between(0.0, 4.999) as usize])
 }
 
 proptest! {

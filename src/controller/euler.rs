@@ -56,14 +56,22 @@ impl<const N: usize> Controller<N> {
         let response = &explicit.response;
         let wanted = explicit.situation.turn.undo(velocity) - response.end_effector_free;
         let moment = Task { row: response.carried, value: explicit.carried - response.carried_free };
-        let Resolved { rate, status, min_singular_value } = self.resolver.solve(
+        let Resolved { rate, status, min_singular_value, places, .. } = self.resolver.solve(
             &self.dynamics.vehicle,
-            &Problem { beginning: &self.now.situation, path: response.jacobian, velocity: wanted, moment },
+            &Problem {
+                beginning: &self.now.situation,
+                path: response.jacobian,
+                velocity: wanted,
+                moment,
+                allowed: &self.allowed(horizon),
+                guess: &self.places,
+            },
         );
         let end = explicit.end(&self.dynamics, &rate, horizon);
         Plan {
             rate,
             status,
+            places,
             min_singular_value,
             velocity_residual: (response.jacobian * rate - wanted).norm(),
             moment_residual: (explicit.carried - end.carried) / horizon,

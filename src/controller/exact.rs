@@ -34,7 +34,9 @@ impl<const N: usize> Controller<N> {
     pub(super) fn plan_exact(&self, t: f64, horizon: f64, target: Vec2) -> Result<Plan<N>> {
         let dynamics = &self.dynamics;
         // Rates that go on changing as they did are close already.
-        let mut plan = Plan::holding(self.rate * 2.0 - self.rate_before, self.now);
+        let mut plan = Plan { places: self.places, ..Plan::holding(self.rate * 2.0 - self.rate_before, self.now) };
+        let allowed = self.allowed(horizon);
+        let mut left_over = 0.0;
         let mut nearest: Option<(f64, Plan<N>)> = None;
         for iteration in 0..=ITERATIONS {
             let mut end = self.now.situation;
@@ -46,7 +48,7 @@ impl<const N: usize> Controller<N> {
             plan.moment_residual = moment / horizon;
             let missing = target - plan.end.end_effector();
             let miss = missing.norm();
-            let moment_free = !self.resolver.cancels_moment() || moment.abs() <= NO_IMPULSE;
+            let moment_free = !self.resolver.cancels_moment() || (moment - left_over).abs() <= NO_IMPULSE;
             if iteration > 0 {
                 if (miss <= ON_REFERENCE && moment_free) || (iteration == ITERATIONS && miss <= INEXACT) {
                     return Ok(plan);
@@ -62,12 +64,18 @@ impl<const N: usize> Controller<N> {
             let response = self.response(&end);
             let velocity = response.jacobian * plan.rate + end.turn.undo(missing / horizon);
             let moment = Task { row: response.carried, value: response.carried.dot(&plan.rate) + moment };
-            let beginning = &self.now.situation;
-            let resolved = self
-                .resolver
-                .solve(&dynamics.vehicle, &Problem { beginning, path: response.jacobian, velocity, moment });
-            (plan.rate, plan.status) = (resolved.rate, resolved.status);
+            let problem = Problem {
+                beginning: &self.now.situation,
+                path: response.jacobian,
+                velocity,
+                moment,
+                allowed: &allowed,
+                guess: &plan.places,
+            };
+            let resolved = self.resolver.solve(&dynamics.vehicle, &problem);
+            (plan.rate, plan.status, plan.places) = (resolved.rate, resolved.status, resolved.places);
             plan.min_singular_value = resolved.min_singular_value;
+            left_over = resolved.moment;
         }
         match nearest {
             Some((_, nearest)) if plan.status == Status::Ok => Ok(Plan { status: Status::Inexact, ..nearest }),

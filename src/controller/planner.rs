@@ -6,7 +6,7 @@
 use nalgebra::SVector;
 
 use super::prediction::Prediction;
-use super::resolution::Resolver;
+use super::resolution::{Allowed, Resolver};
 use super::response::Response;
 use super::{Inputs, Outputs, Planner, Rates, Status};
 use crate::autopilot::AutopilotMode;
@@ -16,6 +16,7 @@ use crate::error::{Error, Result};
 use crate::options::Choice;
 use crate::parameters::{Discretization, Parameters, Resolution, Structure};
 use crate::planar::Vec2;
+use crate::qp::{self, Place, Places};
 use crate::reference::{Reference, ReferenceKind, Target};
 
 /// Sample instants this share of a sample time ahead are reached.
@@ -38,6 +39,8 @@ const SHORTENED: f64 = 1e-9;
 pub(super) struct Plan<const N: usize> {
     pub rate: SVector<f64, N>,
     pub status: Status,
+    /// Which rates are at their limits.
+    pub places: Places,
     pub min_singular_value: f64,
     pub velocity_residual: f64,
     pub moment_residual: f64,
@@ -51,6 +54,7 @@ impl<const N: usize> Plan<N> {
         Self {
             rate,
             status: Status::Ok,
+            places: qp::FREE,
             min_singular_value: 0.0,
             velocity_residual: 0.0,
             moment_residual: 0.0,
@@ -79,6 +83,8 @@ pub struct Controller<const N: usize> {
     pub(super) rate: SVector<f64, N>,
     /// Rates of the plan before.
     pub(super) rate_before: SVector<f64, N>,
+    /// Which rates are at their limits.
+    pub(super) places: Places,
     discretization: Discretization,
     sample_time: f64,
     grasp_time: f64,
@@ -138,6 +144,7 @@ impl<const N: usize> Controller<N> {
             reference: parameters.reference.clone(),
             rate: SVector::zeros(),
             rate_before: SVector::zeros(),
+            places: qp::FREE,
             planned_at: 0.0,
             horizon: ik.sample_time,
             planned_end: now,
@@ -177,6 +184,7 @@ impl<const N: usize> Controller<N> {
         plan.check(t)?;
         self.aim = target.displacement;
         self.rate_before = std::mem::replace(&mut self.rate, plan.rate);
+        self.places = plan.places;
         self.planned_at = t;
         self.planned_end = plan.end;
         outputs.status = plan.status;
@@ -216,15 +224,17 @@ impl<const N: usize> Controller<N> {
         target
     }
 
+    /// What the limits allow in an interval of length `horizon` that begins now.
+    pub(super) fn allowed(&self, horizon: f64) -> Allowed<N> {
+        self.resolver.allowed(&self.dynamics.vehicle, &self.now.situation, &self.rate, horizon)
+    }
+
     /// How the system answers to the rates that the resolution may use.
-    ///
-    /// What balances the arm holds still. Minimum norm would displace it without regard to the moment of its
-    /// weight; and since a counterweight sits above the UAV's centre of mass, its acceleration turns the UAV the
-    /// wrong way before its weight turns it the right way (thesis 3.8), so that rates which cancel the moment at
-    /// every instant would grow without bound.
     pub(super) fn response(&self, situation: &Situation<N>) -> Response<N> {
+        let vehicle = &self.dynamics.vehicle;
         let response = Response::new(&self.dynamics, situation);
-        if self.dynamics.vehicle.balancer.is_some() { response.holding(N - 1) } else { response }
+        let held = vehicle.balancer.is_some() && !self.resolver.moves_balancer(vehicle);
+        if held { response.holding(N - 1) } else { response }
     }
 
     /// Advances the prediction by `size` \[s\] at the rates sent.
@@ -266,6 +276,7 @@ impl<const N: usize> Memory for Controller<N> {
             now,
             rate,
             rate_before,
+            places,
             discretization: _,
             sample_time: _,
             grasp_time: _,
@@ -278,6 +289,7 @@ impl<const N: usize> Memory for Controller<N> {
         } = self;
         now.pass(tape);
         [rate, rate_before].into_iter().for_each(|rate| rate.pass(tape));
+        places.iter_mut().for_each(|place| tape.one_of(place, &Place::ALL));
         aim.pass(tape);
         [planned_at, horizon].into_iter().for_each(|time| time.pass(tape));
         planned_end.pass(tape);

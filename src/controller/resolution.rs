@@ -3,7 +3,9 @@
 //! Whatever the discretization, it hands over the same linear [`Problem`]; each method stands in a file of its
 //! own and answers with [`Resolved`].
 
+mod counterweight;
 mod gradient;
+mod least_squares;
 mod pseudo_inverse;
 mod weights;
 
@@ -14,10 +16,12 @@ pub use pseudo_inverse::{PATH_THRESHOLD, PseudoInverse, resolve};
 use weights::Weights;
 
 use super::Status;
+use super::limits::Limits;
 use crate::dynamics::Situation;
 use crate::parameters::{Parameters, Resolution};
 use crate::planar::Vec2;
-use crate::vehicle::Vehicle;
+use crate::qp::{self, Places};
+use crate::vehicle::{Balancer, Vehicle};
 
 /// One scalar equation `row . q_dot = value`.
 #[derive(Debug, Clone, Copy)]
@@ -39,6 +43,21 @@ pub(super) struct Problem<'a, const N: usize> {
     pub velocity: Vec2,
     /// The rates that meet it exert no moment on the UAV in the mean: an impulse \[N m s\].
     pub moment: Task<N>,
+    /// What the limits allow.
+    pub allowed: &'a Allowed<N>,
+    /// Which rates will probably be at their limits.
+    pub guess: &'a Places,
+}
+
+/// What the limits allow in one interval.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Allowed<const N: usize> {
+    /// Length of the interval \[s\].
+    pub size: f64,
+    /// Smallest rates \[rad/s, m/s\].
+    pub least: SVector<f64, N>,
+    /// Largest rates \[rad/s, m/s\]; that of what balances the arm is the same as the smallest.
+    pub most: SVector<f64, N>,
 }
 
 /// Rates with how they came about.
@@ -50,60 +69,101 @@ pub(super) struct Resolved<const N: usize> {
     pub status: Status,
     /// Smallest singular value of the path's matrix \[m\].
     pub min_singular_value: f64,
+    /// The impulse that they exert on the UAV all the same, as far as the problem is linear \[N m s\].
+    pub moment: f64,
+    /// Which of them are at their limits: a guess for the next problem.
+    pub places: Places,
 }
 
 /// The chosen method with its settings.
 #[derive(Debug, Clone)]
 pub(super) struct Resolver<const N: usize> {
     kind: Resolution,
+    links: usize,
     /// Length of the stretched arm \[m\].
     reach: f64,
     weights: Weights<N>,
     gradient_gain: f64,
-    rate_limit: SVector<f64, N>,
+    rate_penalty: f64,
+    limits: [Limits; N],
 }
 
 impl<const N: usize> Resolver<N> {
     pub fn new(vehicle: &Vehicle<N>, parameters: &Parameters) -> Self {
         Self {
             kind: parameters.ik.resolution,
+            links: vehicle.links,
             reach: vehicle.reach(),
             weights: Weights::new(parameters, vehicle.links),
             gradient_gain: parameters.ik.gradient_gain,
-            // The counterweight holds still and needs no limit.
-            rate_limit: SVector::from_fn(|i, _| {
-                if i < vehicle.links { parameters.joints[i].rate_limit } else { f64::INFINITY }
+            rate_penalty: parameters.ik.rate_penalty,
+            limits: std::array::from_fn(|i| {
+                if i < vehicle.links {
+                    Limits::from(&parameters.joints[i])
+                } else {
+                    Limits::from(&parameters.counterweight)
+                }
             }),
         }
     }
 
     /// Whether the method asks for rates without moment on the UAV.
     pub fn cancels_moment(&self) -> bool {
-        self.kind == Resolution::ExtendedJacobian
+        matches!(self.kind, Resolution::ExtendedJacobian | Resolution::LeastSquares)
+    }
+
+    /// Whether what balances the arm is in motion: a counterweight, by its own law.
+    ///
+    /// Otherwise it holds still. Minimum norm would displace it without regard to the moment of its weight; and since
+    /// a counterweight sits above the UAV's centre of mass, its acceleration turns the UAV the wrong way before
+    /// its weight turns it the right way (thesis 3.8), so that rates which cancel the moment at every instant
+    /// would grow without bound.
+    pub fn moves_balancer(&self, vehicle: &Vehicle<N>) -> bool {
+        self.kind == Resolution::LeastSquares && matches!(vehicle.balancer, Some(Balancer::Counterweight(_)))
+    }
+
+    /// What the limits allow in an interval of length `size` \[s\] that starts in `now` after the rates `before`.
+    /// What balances the arm goes by a law of its own; its rate is fixed.
+    pub fn allowed(&self, vehicle: &Vehicle<N>, now: &Situation<N>, before: &SVector<f64, N>, size: f64) -> Allowed<N> {
+        let mut allowed = Allowed { size, least: SVector::zeros(), most: SVector::zeros() };
+        if self.kind != Resolution::LeastSquares {
+            return allowed;
+        }
+        let position = &now.state.position;
+        for i in 0..self.links {
+            [allowed.least[i], allowed.most[i]] = self.limits[i].window(position[i], before[i], size);
+        }
+        if let Some(target) = counterweight::balance(vehicle, now) {
+            let rate = self.limits[N - 1].approach(target, position[N - 1], before[N - 1], size);
+            (allowed.least[N - 1], allowed.most[N - 1]) = (rate, rate);
+        }
+        allowed
     }
 
     /// The rates that the method chooses.
     pub fn solve(&self, vehicle: &Vehicle<N>, problem: &Problem<'_, N>) -> Resolved<N> {
-        let Problem { beginning, path, velocity, moment } = problem;
+        let Problem { beginning, path, velocity, moment, .. } = problem;
         let (preferred, task) = match self.kind {
             // The smallest rates: right pseudo-inverse of the generalized Jacobian (thesis 1.8).
             Resolution::MinimumNorm => (SVector::zeros(), None),
             Resolution::Gradient => (gradient::preferred(vehicle, beginning, self.gradient_gain), None),
             // One more row below the generalized Jacobian (thesis 3.2, 3.3 and 3.6).
             Resolution::ExtendedJacobian => (SVector::zeros(), Some(moment)),
+            Resolution::LeastSquares => return self.least_squares(problem),
         };
-        self.limited(&self.weights.resolve(path, *velocity, &preferred, task, self.reach))
+        self.scaled(problem, &self.weights.resolve(path, *velocity, &preferred, task, self.reach))
     }
 
     /// Scales rates down so that none exceeds its limit, and sums up how they came about.
-    fn limited(&self, found: &PseudoInverse<N>) -> Resolved<N> {
-        let excess = found.rate.component_div(&self.rate_limit).amax();
-        let status = match (excess > 1.0, found.path_damped, found.task_damped) {
-            (true, ..) => Status::RateLimited,
-            (false, true, _) => Status::PathDamped,
-            (false, false, true) => Status::TaskDamped,
-            (false, false, false) => Status::Ok,
-        };
-        Resolved { rate: found.rate / excess.max(1.0), status, min_singular_value: found.min_singular_value }
+    fn scaled(&self, problem: &Problem<N>, found: &PseudoInverse<N>) -> Resolved<N> {
+        let excess = (0..self.links).map(|i| found.rate[i].abs() / self.limits[i].rate).fold(0.0, f64::max);
+        let rate = found.rate / excess.max(1.0);
+        Resolved {
+            rate,
+            status: if excess > 1.0 { Status::RateLimited } else { found.status() },
+            min_singular_value: found.min_singular_value,
+            moment: problem.moment.value - problem.moment.row.dot(&rate),
+            places: qp::FREE,
+        }
     }
 }

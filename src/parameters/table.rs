@@ -272,19 +272,26 @@ pub fn declare_controller<D: AsMut<Parameters>>(table: &mut Table<D>, structure:
         "With the resolution gradient: joint rates per gradient of the squared horizontal distance between the centres \
          of mass of the UAV and of what it carries; negative: towards a small distance",
         |d, _| &mut d.as_mut().ik.gradient_gain,
+    )
+    .real(
+        "ik.rate_penalty",
+        &unit::NEWTON2_METRE2_SECOND_PER_RADIAN,
+        Bounds::NON_NEGATIVE,
+        "What each absolute joint rate costs beside the squared mean moment on the UAV; for least_squares",
+        |d, _| &mut d.as_mut().ik.rate_penalty,
     );
     for i in 0..structure.links {
         let n = i + 1;
-        table
-            .tunable()
-            .at(i)
-            .real(
-                format!("joint[{n}].rate_limit"),
-                &unit::RADIAN_PER_SECOND,
-                Bounds::POSITIVE,
-                format!("Largest rate commanded to joint {n}; where it binds, all rates are scaled down together"),
-                |d, i| &mut d.as_mut().joints[i].rate_limit,
-            )
+        table.tunable().at(i).real(
+            format!("joint[{n}].rate_limit"),
+            &unit::RADIAN_PER_SECOND,
+            Bounds::POSITIVE,
+            format!(
+                "Largest rate commanded to joint {n}; where it binds, all rates are scaled down together, except with \
+                 least_squares, which finds other ones"
+            ),
+            |d, i| &mut d.as_mut().joints[i].rate_limit,
+        )
             .real(
                 format!("joint[{n}].weight"),
                 &unit::ONE,
@@ -293,7 +300,56 @@ pub fn declare_controller<D: AsMut<Parameters>>(table: &mut Table<D>, structure:
                     "Weight of joint {n} in the norm of the rates that is kept small; only ratios of weights count"
                 ),
                 |d, i| &mut d.as_mut().joints[i].weight,
+            )
+        .real(
+            format!("joint[{n}].acceleration_limit"),
+            &unit::RADIAN_PER_SECOND2,
+            Bounds::POSITIVE,
+            format!("Largest change of the rate commanded to joint {n} per time; for least_squares"),
+            |d, i| &mut d.as_mut().joints[i].acceleration_limit,
+        );
+        table
+            .fixed()
+            .at(i)
+            .real(
+                format!("joint[{n}].lower"),
+                &unit::RADIAN,
+                Bounds::ANY,
+                format!("Smallest angle of joint {n}, before which it brakes in time; for least_squares"),
+                |d, i| &mut d.as_mut().joints[i].lower,
+            )
+            .real(
+                format!("joint[{n}].upper"),
+                &unit::RADIAN,
+                Bounds::ANY,
+                format!("Largest angle of joint {n}, before which it brakes in time; for least_squares"),
+                |d, i| &mut d.as_mut().joints[i].upper,
             );
+    }
+    if structure.balance == Balance::Counterweight {
+        table
+            .tunable()
+            .real(
+                "counterweight.rate_limit",
+                &unit::METRE_PER_SECOND,
+                Bounds::NON_NEGATIVE,
+                "Largest rate commanded to the counterweight, 0: it is locked; for least_squares, otherwise it is locked",
+                |d, _| &mut d.as_mut().counterweight.rate_limit,
+            )
+            .real(
+                "counterweight.acceleration_limit",
+                &unit::METRE_PER_SECOND2,
+                Bounds::POSITIVE,
+                "Largest change of the rate commanded to the counterweight per time",
+                |d, _| &mut d.as_mut().counterweight.acceleration_limit,
+            );
+        table.fixed().real(
+            "counterweight.stroke",
+            &unit::METRE,
+            Bounds::NON_NEGATIVE,
+            "How far the counterweight slides to both sides of the UAV's centre of mass",
+            |d, _| &mut d.as_mut().counterweight.stroke,
+        );
     }
     table.fixed().choice("reference.kind", "What the end effector follows", |d, _| &mut d.as_mut().reference.kind);
     for j in 0..LEGS {

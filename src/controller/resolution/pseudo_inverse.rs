@@ -9,6 +9,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::Task;
+use crate::controller::Status;
 use crate::planar::{Vec2, cross, perp};
 
 /// Singular values of the path below this share of the arm's reach are damped.
@@ -28,6 +29,17 @@ pub struct PseudoInverse<const N: usize> {
     pub path_damped: bool,
     /// Whether the second task is met in part only.
     pub task_damped: bool,
+}
+
+impl<const N: usize> PseudoInverse<N> {
+    /// What had to be given up.
+    pub(super) fn status(&self) -> Status {
+        match (self.path_damped, self.task_damped) {
+            (true, _) => Status::PathDamped,
+            (false, true) => Status::TaskDamped,
+            (false, false) => Status::Ok,
+        }
+    }
 }
 
 /// The Gram matrix J J^T of a path by its eigenvalues and its first eigenvector.

@@ -1,0 +1,162 @@
+//! How fast a coordinate may be in the coming interval: it must be able to stop in time.
+
+use crate::parameters::{Counterweight, Joint};
+
+/// Limits of one coordinate \[rad, m; s\].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limits {
+    /// Largest rate.
+    pub rate: f64,
+    /// Largest change of the rate per time.
+    pub acceleration: f64,
+    /// Smallest position.
+    pub lower: f64,
+    /// Largest position.
+    pub upper: f64,
+}
+
+impl From<&Joint> for Limits {
+    fn from(joint: &Joint) -> Self {
+        Self { rate: joint.rate_limit, acceleration: joint.acceleration_limit, lower: joint.lower, upper: joint.upper }
+    }
+}
+
+impl From<&Counterweight> for Limits {
+    fn from(counterweight: &Counterweight) -> Self {
+        Self {
+            rate: counterweight.rate_limit,
+            acceleration: counterweight.acceleration_limit,
+            lower: -counterweight.stroke,
+            upper: counterweight.stroke,
+        }
+    }
+}
+
+impl Limits {
+    /// Smallest and largest rate for an interval of length `size` \[s\] that starts at `position` with a jump
+    /// from the rate `before`.
+    ///
+    /// At any rate in between, the coordinate can stop at its stops by intervals of this length, each slower than
+    /// the one before by no more than the acceleration limit allows. Who is past a stop may stay there or
+    /// come back. Where not all limits can hold, since they have been changed, or since the start is too near to
+    /// a stop, that of the acceleration does.
+    #[must_use]
+    pub fn window(&self, position: f64, before: f64, size: f64) -> [f64; 2] {
+        let change = self.acceleration * size;
+        let downwards = self.stopping_rate(position - self.lower, size).min(self.rate);
+        let upwards = self.stopping_rate(self.upper - position, size).min(self.rate);
+        [-downwards, upwards].map(|rate| rate.min(before + change).max(before - change))
+    }
+
+    /// The rate for an interval of length `size` \[s\] from `position` that leads to `target` fastest, without
+    /// overshooting.
+    #[must_use]
+    pub fn approach(&self, target: f64, position: f64, before: f64, size: f64) -> f64 {
+        let distance = target.min(self.upper).max(self.lower) - position;
+        let [least, most] = self.window(position, before, size);
+        (self.stopping_rate(distance.abs(), size) * distance.signum()).min(most).max(least)
+    }
+
+    /// The largest rate r for an interval of length T after which slowing down by a T in each interval covers
+    /// no more than the rest of `distance`: with n intervals of slowing down,
+    /// r T + (r - a T) T + ... + (r - n a T) T = `distance`.
+    fn stopping_rate(&self, distance: f64, size: f64) -> f64 {
+        let (distance, change) = (distance.max(0.0), self.acceleration * size);
+        let intervals = (0.5 * ((1.0 + 8.0 * distance / (change * size)).sqrt() - 1.0)).floor();
+        if intervals < MANY {
+            distance / (size * (intervals + 1.0)) + 0.5 * change * intervals
+        } else {
+            // From here on one interval more or less is nothing.
+            (2.0 * self.acceleration * distance).sqrt() * (1.0 - 1.0 / MANY)
+        }
+    }
+}
+
+/// So many intervals of braking are as good as a continuum.
+const MANY: f64 = 1e6;
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    /// Where a coordinate comes to rest that slows down as much as it may after an interval at `rate`.
+    fn rest(limits: &Limits, mut position: f64, mut rate: f64, size: f64) -> f64 {
+        while rate != 0.0 {
+            position += rate * size;
+            rate -= rate.abs().min(limits.acceleration * size) * rate.signum();
+        }
+        position
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+        #[test]
+        fn whoever_stays_within_the_windows_stays_within_the_stops(
+            rate in 0.1..10.0_f64, braking in 0.5..500.0_f64, size in 1e-3..0.1_f64,
+            start in 0.0..1.0_f64, choices in prop::collection::vec(0.0..1.0_f64, 200),
+        ) {
+            let limits = Limits { rate, acceleration: braking * rate, lower: -0.3, upper: 0.5 };
+            let (mut position, mut before) = (-0.3 + 0.8 * start, 0.0_f64);
+            for choice in choices {
+                let [least, most] = limits.window(position, before, size);
+                prop_assert!(least <= most);
+                // Often at the ends.
+                let next = least + (most - least) * (2.0 * choice - 0.5).clamp(0.0, 1.0);
+                prop_assert!(next.abs() <= rate * (1.0 + 1e-12));
+                prop_assert!((next - before).abs() <= limits.acceleration * size * (1.0 + 1e-12));
+                let rest = rest(&limits, position, next, size);
+                prop_assert!((-0.3 - 1e-9..=0.5 + 1e-9).contains(&rest), "{rest}");
+                position += next * size;
+                before = next;
+                prop_assert!((-0.3 - 1e-12..=0.5 + 1e-12).contains(&position), "{position}");
+            }
+        }
+
+        #[test]
+        fn the_windows_are_no_narrower_than_need_be(
+            acceleration in 0.5..100.0_f64, size in 1e-3..0.1_f64, distance in 1e-3..1.0_f64,
+        ) {
+            let limits = Limits { rate: 1e9, acceleration, lower: -1e9, upper: 0.0 };
+            let largest = limits.stopping_rate(distance, size);
+            prop_assert!(rest(&limits, -distance, largest, size) <= 1e-12);
+            prop_assert!(rest(&limits, -distance, largest * (1.0 + 1e-6), size) > 0.0);
+            // Without intervals, the way of braking is v^2 / 2 a.
+            let speed = limits.stopping_rate(distance, 1e-7);
+            prop_assert!((speed * speed / (2.0 * acceleration) - distance).abs() < 1e-3 * distance);
+        }
+
+        #[test]
+        fn an_approach_ends_at_the_target_without_overshooting(
+            acceleration in 0.5..100.0_f64, size in 1e-3..0.1_f64, target in -1.2..1.2_f64,
+        ) {
+            let limits = Limits { rate: 2.0, acceleration, lower: -1.0, upper: 1.0 };
+            let (mut position, mut before) = (0.0_f64, 0.0);
+            let end = target.clamp(-1.0, 1.0);
+            for _ in 0..20_000 {
+                before = limits.approach(target, position, before, size);
+                position += before * size;
+                prop_assert!(position.abs() <= end.abs() + 1e-12);
+            }
+            prop_assert!((position - end).abs() < 1e-9, "{position}");
+        }
+    }
+
+    #[test]
+    fn past_a_stop_one_may_stay_or_come_back() {
+        let limits = Limits { rate: 1.0, acceleration: 10.0, lower: -1.0, upper: 1.0 };
+        assert_eq!(limits.window(1.5, 0.0, 0.1), [-1.0, 0.0]);
+        assert_eq!(limits.window(-1.5, 0.0, 0.01), [0.0, 0.1]);
+        // Moving outwards still, it slows down as fast as it may.
+        assert_eq!(limits.window(1.5, 0.5, 0.01), [0.4, 0.4]);
+    }
+
+    #[test]
+    fn no_number_is_too_large() {
+        let limits = Limits { rate: 1e300, acceleration: 1e-300, lower: -1e300, upper: 1e300 };
+        let [least, most] = limits.window(0.0, 0.0, 1e-9);
+        assert!(least <= 0.0 && most >= 0.0 && most.is_finite());
+    }
+}
