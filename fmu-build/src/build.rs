@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use uam::Structure;
 
-use crate::compile::compile;
+use crate::compile::{Compiled, compile};
+use crate::cross::Toolchain;
 use crate::description::model_description;
 use crate::design::Design;
 use crate::error::Result;
@@ -21,14 +22,16 @@ const SSP_NAME: &str = "uam.ssp";
 pub struct BuildOptions {
     /// The pair.
     pub design: Design,
+    /// What compiles the libraries, one for each platform that the FMUs are for.
+    pub toolchains: Vec<Toolchain>,
     /// Folder for the files; created if it is missing.
     pub folder: PathBuf,
 }
 
 impl BuildOptions {
-    /// To build this, there.
+    /// To build this, there, for this machine.
     pub fn new(design: impl Into<Design>, folder: impl Into<PathBuf>) -> Self {
-        Self { design: design.into(), folder: folder.into() }
+        Self { design: design.into(), toolchains: vec![Toolchain::Own], folder: folder.into() }
     }
 }
 
@@ -43,7 +46,7 @@ pub struct Built {
     pub ssp: PathBuf,
 }
 
-/// Compiles both units for this machine and writes the two FMUs and the SSP.
+/// Compiles both units and writes the two FMUs and the SSP.
 ///
 /// `progress` is told, line by line, what is being done.
 ///
@@ -51,15 +54,19 @@ pub struct Built {
 /// If the start values do not go together, the sources are not found, do not compile, or a file cannot be written.
 pub fn build(options: &BuildOptions, progress: &dyn Fn(&str)) -> Result<Built> {
     options.design.check()?;
-    let platform = Platform::of_this_machine()?;
     let controller = Unit::controller(options.design.clone());
     let plant = Unit::plant(options.design.clone());
     let packages = [controller.interface.identifier, plant.interface.identifier];
-    let compiled = compile(&workspace::root()?, &packages, progress)?;
+    let root = workspace::root()?;
+    let compile = |toolchain: &Toolchain| Ok((toolchain.platform()?, compile(&root, &packages, *toolchain, progress)?));
+    let compiled: Vec<_> = options.toolchains.iter().map(compile).collect::<Result<_>>()?;
 
     let pack = |unit: &Unit| {
-        let library = files::read(&compiled.library(unit.interface.identifier, platform)?)?;
-        fmu(unit, platform, library)?.to_bytes(&unit.interface.file_name())
+        let read = |(platform, compiled): &(Platform, Compiled)| {
+            Ok((*platform, files::read(&compiled.library(unit.interface.identifier)?)?))
+        };
+        let libraries = compiled.iter().map(read).collect::<Result<Vec<_>>>()?;
+        fmu(unit, &libraries)?.to_bytes(&unit.interface.file_name())
     };
     let controller_fmu = pack(&controller)?;
     let plant_fmu = pack(&plant)?;

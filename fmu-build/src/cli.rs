@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
+use fmu_build::cross::TARGETS;
 use fmu_build::study::DISCRETIZATIONS;
 use uam::Structure;
 use uam::options::Choice;
@@ -98,6 +99,16 @@ pub struct BuildArguments {
     /// Names like joint_1_rate_command instead of joint[1].rate_command, for hosts that make buses of the latter
     #[arg(long)]
     pub flat: bool,
+    /// Platforms that the FMUs are for, separated by commas [default: this machine]
+    ///
+    /// linux64 runs with the C library of 2012 and later; darwin64 holds both processors. Binaries for aarch64-linux
+    /// go into FMUs of their own, in a folder of this name, for many importers look for them where those for x86-64
+    /// are. What a platform needs beside Rust is said if it is missing.
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = platforms())]
+    pub platforms: Vec<String>,
+    /// All platforms for which this machine has the tools
+    #[arg(long, conflicts_with = "platforms")]
+    pub all_platforms: bool,
 }
 
 impl BuildArguments {
@@ -164,6 +175,10 @@ fn links(text: &str) -> Result<usize, String> {
 
 fn seconds(text: &str) -> Result<f64, String> {
     text.parse().map_err(|_| "a number of seconds is needed, for instance 0.001".to_owned())
+}
+
+fn platforms() -> PossibleValuesParser {
+    PossibleValuesParser::new(TARGETS.iter().map(|target| target.platform.folder))
 }
 
 fn discretizations() -> impl TypedValueParser<Value = Discretization> {

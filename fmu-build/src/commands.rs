@@ -6,14 +6,14 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use anyhow::{Context, Result};
 use fmu_build::coupling::Pair;
 use fmu_build::run::Run;
-use fmu_build::{BuildOptions, Built, Design, workspace};
+use fmu_build::{BuildOptions, Built, workspace};
 use indicatif::{ProgressBar, ProgressStyle};
 use uam::Structure;
-use uam::fmi2::Naming;
 use uam::scenarios::{self, Extent, Scenario};
 
-use crate::cli::{Arguments, BuildArguments, Command};
+use crate::cli::{Arguments, Command};
 
+mod build;
 mod export;
 mod pick_up;
 mod simulate;
@@ -24,11 +24,7 @@ pub fn execute(arguments: &Arguments) -> Result<()> {
     let out = &arguments.out;
     match &arguments.command {
         None => pick_up::execute(out),
-        Some(Command::Build(vehicle)) => {
-            let built = build(design(vehicle)?, out)?;
-            wrote(&[built.controller, built.plant, built.ssp]);
-            Ok(())
-        }
+        Some(Command::Build(arguments)) => build::execute(arguments, out),
         Some(Command::Simulate(simulation)) => simulate::execute(simulation, out),
         Some(Command::Thesis) => thesis::execute(out),
         Some(Command::List) => {
@@ -62,22 +58,16 @@ fn scenario(name_or_file: &str) -> Result<Scenario> {
     Scenario::read(&text).with_context(|| name_or_file.to_owned())
 }
 
-/// The pair of units that is asked for.
-fn design(arguments: &BuildArguments) -> Result<Design> {
-    let naming = if arguments.flat { Naming::Flat } else { Naming::Structured };
-    let design = match &arguments.scenario {
-        Some(name_or_file) => Design::from(scenario(name_or_file)?),
-        None => Design::from(arguments.structure()?),
-    };
-    Ok(Design { naming, ..design })
+/// Builds the FMUs of a structure for this machine into a folder.
+fn build_here(structure: Structure, folder: &Path) -> Result<Built> {
+    build_files(&BuildOptions::new(structure, folder))
 }
 
-/// Builds FMUs into a folder.
-fn build(design: impl Into<Design>, folder: &Path) -> Result<Built> {
+/// Builds FMUs and says on the terminal how far it is.
+fn build_files(options: &BuildOptions) -> Result<Built> {
     let spinner = ProgressBar::new_spinner();
     spinner.enable_steady_tick(std::time::Duration::from_millis(120));
-    let options = BuildOptions::new(design, folder);
-    let built = fmu_build::build(&options, &|line| spinner.set_message(line.to_owned()));
+    let built = fmu_build::build(options, &|line| spinner.set_message(line.to_owned()));
     spinner.finish_and_clear();
     built.with_context(|| format!("cannot build the FMUs for {}", options.design.structure))
 }
@@ -112,7 +102,7 @@ impl Pairs {
         let mut pairs: Vec<(Structure, Pair)> = Vec::new();
         for structure in structures {
             if pairs.iter().all(|(built, _)| *built != structure) {
-                let built = build(structure, &folder(out, structure))?;
+                let built = build_here(structure, &folder(out, structure))?;
                 pairs.push((structure, Pair::open(&built.controller, &built.plant)?));
             }
         }

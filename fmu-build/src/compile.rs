@@ -9,8 +9,8 @@ use std::thread;
 
 use cargo_metadata::Message;
 
+use crate::cross::Toolchain;
 use crate::error::{Error, Result};
-use crate::platform::Platform;
 
 /// Profile in the workspace's `Cargo.toml` for what goes into an FMU.
 const PROFILE: &str = "fmu";
@@ -20,6 +20,7 @@ const FLAG_SEPARATOR: &str = "\u{1f}";
 /// What came out of a compilation.
 #[derive(Debug)]
 pub struct Compiled {
+    toolchain: Toolchain,
     /// What cargo says for programs: one JSON object per line.
     messages: Vec<u8>,
 }
@@ -28,11 +29,11 @@ pub struct Compiled {
 ///
 /// # Errors
 /// If cargo cannot be started or a package does not compile.
-pub fn compile(workspace: &Path, packages: &[&str], progress: &dyn Fn(&str)) -> Result<Compiled> {
-    let mut command = cargo(workspace, packages)?;
+pub fn compile(workspace: &Path, packages: &[&str], toolchain: Toolchain, progress: &dyn Fn(&str)) -> Result<Compiled> {
+    let mut command = cargo(workspace, packages, toolchain)?;
     let child = command.spawn().map_err(|reason| not_started(&command, "CARGO", reason))?;
     let messages = wait_for(child, &command, progress)?;
-    Ok(Compiled { messages })
+    Ok(Compiled { toolchain, messages })
 }
 
 impl Compiled {
@@ -40,25 +41,34 @@ impl Compiled {
     ///
     /// # Errors
     /// If there is none.
-    pub fn library(&self, package: &str, platform: Platform) -> Result<PathBuf> {
-        Message::parse_stream(self.messages.as_slice())
+    pub fn library(&self, package: &str) -> Result<PathBuf> {
+        let extension = self.toolchain.platform()?.extension;
+        let reported = Message::parse_stream(self.messages.as_slice())
             .filter_map(std::result::Result::ok)
             .filter_map(|message| match message {
                 Message::CompilerArtifact(artifact) if artifact.target.name == package => Some(artifact.filenames),
                 _ => None,
             })
             .flatten()
-            .find(|file| file.extension() == Some(platform.extension))
-            .map(Into::into)
-            .ok_or_else(|| Error::NoLibrary { package: package.to_owned(), extension: platform.extension })
+            .find(|file| file.extension() == Some(extension))
+            .map(PathBuf::from)
+            .ok_or_else(|| Error::NoLibrary { package: package.to_owned(), extension })?;
+        Ok(match self.toolchain {
+            Toolchain::Own => reported,
+            Toolchain::Cross(target) => target.merged(&reported),
+        })
     }
 }
 
-fn cargo(workspace: &Path, packages: &[&str]) -> Result<Command> {
+fn cargo(workspace: &Path, packages: &[&str], toolchain: Toolchain) -> Result<Command> {
     let mut command = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     command
         .current_dir(workspace)
-        .args(["build", "--locked", "--profile", PROFILE, "--message-format", "json-render-diagnostics"])
+        .arg(match toolchain {
+            Toolchain::Own => "build",
+            Toolchain::Cross(target) => target.subcommand(),
+        })
+        .args(["--locked", "--profile", PROFILE, "--message-format", "json-render-diagnostics"])
         .args(packages.iter().flat_map(|package| ["--package", package]))
         .arg("--target-dir")
         .arg(target_folder(workspace))
@@ -68,7 +78,18 @@ fn cargo(workspace: &Path, packages: &[&str]) -> Result<Command> {
         .stdin(Stdio::null())
         .stdout(Stdio::piped())
         .stderr(Stdio::piped());
+    if let Toolchain::Cross(target) = toolchain {
+        command.arg("--target").arg(target.argument()).envs(target.environment());
+    }
     Ok(command)
+}
+
+/// Where the standard library of a target would be.
+#[must_use]
+pub fn target_libraries(triple: &str) -> Option<PathBuf> {
+    let mut command = Command::new(env::var_os("RUSTC").unwrap_or_else(|| "rustc".into()));
+    let output = command.args(["--print", "target-libdir", "--target", triple]).output().ok()?;
+    output.status.success().then(|| PathBuf::from(String::from_utf8_lossy(&output.stdout).trim_end()))
 }
 
 /// A target folder of its own: the cargo that may be running this program holds the lock of the usual one.
@@ -195,16 +216,16 @@ mod tests {
 
     #[test]
     fn a_missing_library_is_named() {
-        let nothing = Compiled { messages: Vec::new() };
-        let platform = Platform { folder: "linux64", extension: "so" };
-        let error = nothing.library("uam_plant", platform).unwrap_err().to_string();
+        let toolchain = Toolchain::Cross(&crate::cross::TARGETS[0]);
+        let nothing = Compiled { toolchain, messages: Vec::new() };
+        let error = nothing.library("uam_plant").unwrap_err().to_string();
         assert!(error.contains("uam_plant") && error.contains(".so"), "{error}");
     }
 
     #[test]
     fn a_package_that_is_not_there_is_an_error_with_cargos_own_words() {
         let workspace = crate::workspace::root().unwrap();
-        let error = compile(&workspace, &["uam_nothing"], &|_| ()).unwrap_err().to_string();
+        let error = compile(&workspace, &["uam_nothing"], Toolchain::Own, &|_| ()).unwrap_err().to_string();
         assert!(error.contains("`uam_nothing`") && error.contains("cargo"), "{error}");
     }
 }

@@ -12,6 +12,7 @@ mod build;
 pub mod claims;
 pub mod compile;
 pub mod coupling;
+pub mod cross;
 pub mod description;
 pub mod design;
 pub mod documentation;

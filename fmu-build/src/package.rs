@@ -13,14 +13,18 @@ use crate::units::Unit;
 const LICENSES: [(&str, &str); 2] =
     [("LICENSE-MIT", include_str!("../../LICENSE-MIT")), ("LICENSE-APACHE", include_str!("../../LICENSE-APACHE"))];
 
-/// The FMU of a unit whose library for `platform` has these bytes.
+/// The FMU of a unit with its library for each of some platforms.
 ///
 /// # Errors
 /// If the model description cannot be put together.
-pub fn fmu(unit: &Unit, platform: Platform, library: Vec<u8>) -> Result<Archive> {
+pub fn fmu(unit: &Unit, libraries: &[(Platform, Vec<u8>)]) -> Result<Archive> {
     let mut archive = Archive::default();
     archive.add("modelDescription.xml", model_description(&unit.interface)?);
-    archive.add_executable(platform.library(unit.interface.identifier), library);
+    for (platform, library) in libraries {
+        for path in platform.libraries(unit.interface.identifier) {
+            archive.add_executable(path, library.as_slice());
+        }
+    }
     archive.add("documentation/index.html", documentation::page(unit));
     for (name, text) in LICENSES {
         archive.add(format!("documentation/licenses/{name}"), text);

@@ -93,7 +93,7 @@ fn a_unit_whose_file_was_changed_is_refused_with_both_identities() {
     let changed = |text: Option<String>| -> String {
         let mut unit = Unit::plant(design());
         unit.interface.start_file = text;
-        let archive = fmu(&unit, platform, library(&own.plant, "uam_plant")).unwrap();
+        let archive = fmu(&unit, &[(platform, library(&own.plant, "uam_plant"))]).unwrap();
         let path: PathBuf = folder.path().join("changed.fmu");
         fs::write(&path, archive.to_bytes("changed").unwrap()).unwrap();
         Fmu::open(&path).unwrap().instantiate("changed").unwrap_err().to_string()

@@ -5,7 +5,7 @@
 use std::io::{Cursor, Read};
 
 use fmu_build::package::fmu;
-use fmu_build::platform::Platform;
+use fmu_build::platform::{AARCH64_LINUX, DARWIN64, LINUX64, Platform, WIN64};
 use fmu_build::ssp::{Component, ssp};
 use fmu_build::units::Unit;
 use roxmltree::Document;
@@ -13,8 +13,7 @@ use uam::Structure;
 use zip::ZipArchive;
 
 fn pack(unit: &Unit) -> Vec<u8> {
-    let platform = Platform { folder: "linux64", extension: "so" };
-    fmu(unit, platform, b"library".to_vec()).unwrap().to_bytes("test").unwrap()
+    fmu(unit, &[(LINUX64, b"library".to_vec())]).unwrap().to_bytes("test").unwrap()
 }
 
 fn pack_system(plant: &Unit, controller: &Unit) -> Vec<u8> {
@@ -60,6 +59,26 @@ fn an_fmu_holds_what_the_standard_names() {
         ]
     );
     assert_eq!(entry(&archive, "binaries/linux64/uam_plant.so"), b"library");
+}
+
+#[test]
+fn every_platform_has_its_library_where_importers_look() {
+    let unit = Unit::plant(Structure::DEFAULT);
+    let binaries = |platforms: &[Platform]| {
+        let libraries: Vec<_> = platforms.iter().map(|platform| (*platform, b"library".to_vec())).collect();
+        let archive = fmu(&unit, &libraries).unwrap().to_bytes("test").unwrap();
+        names(&archive).into_iter().filter(|name| name.starts_with("binaries/")).collect::<Vec<_>>()
+    };
+    assert_eq!(
+        binaries(&[LINUX64, WIN64, DARWIN64]),
+        [
+            "binaries/aarch64-darwin/uam_plant.dylib",
+            "binaries/darwin64/uam_plant.dylib",
+            "binaries/linux64/uam_plant.so",
+            "binaries/win64/uam_plant.dll",
+        ]
+    );
+    assert_eq!(binaries(&[AARCH64_LINUX]), ["binaries/aarch64-linux/uam_plant.so", "binaries/linux64/uam_plant.so"]);
 }
 
 #[test]

@@ -11,14 +11,14 @@ use fmu_build::study::{self, Case, DISCRETIZATIONS};
 use uam::Structure;
 use uam::options::Choice;
 
-use super::{Progress, build, speed, wrote};
+use super::{Progress, build_here, speed, wrote};
 
 /// The csv holds every so many communication points: fine enough to plot, small enough for spreadsheets.
 const CSV_STRIDE: usize = 10;
 
 pub fn execute(out: &Path) -> Result<()> {
     println!("Building both FMUs for {} ...", Structure::DEFAULT);
-    let built = build(Structure::DEFAULT, out)?;
+    let built = build_here(Structure::DEFAULT, out)?;
     let pair = Pair::open(&built.controller, &built.plant)?;
 
     let cases = run_all(&pair)?;

@@ -8,7 +8,7 @@ use fmu_build::record::{Names, write_csv};
 use fmu_build::report;
 use fmu_build::run::run;
 
-use super::{Progress, build, folder, speed, wrote};
+use super::{Progress, build_here, folder, speed, wrote};
 use crate::cli::SimulateArguments;
 
 pub fn execute(arguments: &SimulateArguments, out: &Path) -> Result<()> {
@@ -20,7 +20,7 @@ pub fn execute(arguments: &SimulateArguments, out: &Path) -> Result<()> {
         Schedule::new(0.0, arguments.stop.unwrap_or(scenario.duration), arguments.step.unwrap_or(scenario.step))?;
     let order = if arguments.sequential { Order::PlantFirst } else { Order::Parallel };
 
-    let built = build(scenario.structure, &folder(out, scenario.structure))?;
+    let built = build_here(scenario.structure, &folder(out, scenario.structure))?;
     let pair = Pair::open(&built.controller, &built.plant)?;
     let names = if arguments.all_outputs {
         Names::all_outputs(pair.controller.description(), pair.plant.description())

@@ -1,0 +1,166 @@
+//! Binaries for other machines than this one, and for older systems than this one has.
+
+use std::env;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use crate::platform::{AARCH64_LINUX, DARWIN64, LINUX64, Platform, WIN64};
+
+/// Oldest C library of Linux on which the binaries run: that of 2012, which is in every distribution since.
+const GLIBC: &str = "2.17";
+/// Oldest macOS: the first one for both processors.
+const MACOS: &str = "11.0";
+/// The name under which cargo-zigbuild knows macOS on both processors.
+const UNIVERSAL: &str = "universal2-apple-darwin";
+
+/// What compiles a unit's library.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Toolchain {
+    /// The compiler of this machine, for this machine.
+    Own,
+    /// A cross-compiler.
+    Cross(&'static Target),
+}
+
+/// A platform with the way to compile for it.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Target {
+    /// The platform.
+    pub platform: Platform,
+    /// Rust's names of it, one for each processor.
+    triples: &'static [&'static str],
+    linker: Linker,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Linker {
+    /// Zig brings the C libraries of many systems; cargo-zigbuild uses it with cargo.
+    Zig,
+    MinGw,
+}
+
+/// Every platform that can be compiled for.
+pub static TARGETS: [Target; 4] = [
+    Target { platform: LINUX64, triples: &["x86_64-unknown-linux-gnu"], linker: Linker::Zig },
+    Target { platform: WIN64, triples: &["x86_64-pc-windows-gnu"], linker: Linker::MinGw },
+    Target { platform: DARWIN64, triples: &["x86_64-apple-darwin", "aarch64-apple-darwin"], linker: Linker::Zig },
+    Target { platform: AARCH64_LINUX, triples: &["aarch64-unknown-linux-gnu"], linker: Linker::Zig },
+];
+
+impl Target {
+    /// Whether its FMUs must be files of their own: its binary stands where that of another platform would.
+    #[must_use]
+    pub fn is_apart(&self) -> bool {
+        TARGETS.iter().any(|other| Some(other.platform.folder) == self.platform.also)
+    }
+
+    /// What is missing on this machine to compile for the platform, and how to get it.
+    ///
+    /// `libraries` tells where Rust's standard library for a triple would be.
+    #[must_use]
+    pub fn lacks(&self, libraries: impl Fn(&str) -> Option<PathBuf>) -> Vec<String> {
+        let mut missing = Vec::new();
+        let is_there = |triple: &str| libraries(triple).is_some_and(|folder| folder.is_dir());
+        // Whoever has the sources of the standard library may tell cargo by this to compile it as well.
+        if env::var_os("CARGO_UNSTABLE_BUILD_STD").is_none() {
+            let absent = self.triples.iter().filter(|triple| !is_there(triple));
+            missing.extend(absent.map(|triple| format!("Rust's standard library (rustup target add {triple})")));
+        }
+        let (command, hint) = match self.linker {
+            Linker::Zig => (["cargo-zigbuild", "--version"], "cargo-zigbuild (pip install cargo-zigbuild ziglang)"),
+            Linker::MinGw => (["x86_64-w64-mingw32-gcc", "--version"], "mingw-w64 (Debian: apt-get install mingw-w64)"),
+        };
+        if !runs(command) {
+            missing.push(hint.to_owned());
+        }
+        missing
+    }
+
+    /// The subcommand of cargo that builds for the platform.
+    pub(crate) fn subcommand(&self) -> &'static str {
+        match self.linker {
+            Linker::Zig => "zigbuild",
+            Linker::MinGw => "build",
+        }
+    }
+
+    /// What to hand over as `--target`.
+    pub(crate) fn argument(&self) -> String {
+        match self.triples {
+            [triple] if triple.ends_with("linux-gnu") => format!("{triple}.{GLIBC}"),
+            [triple] => (*triple).to_owned(),
+            _ => UNIVERSAL.to_owned(),
+        }
+    }
+
+    /// What must be in the environment.
+    pub(crate) fn environment(&self) -> Option<(&'static str, &'static str)> {
+        (self.platform == DARWIN64).then_some(("MACOSX_DEPLOYMENT_TARGET", MACOS))
+    }
+
+    /// Where the finished library is, if cargo reports this one: those for several processors are merged.
+    pub(crate) fn merged(&self, reported: &Path) -> PathBuf {
+        let merge =
+            |part: &std::ffi::OsStr| self.triples.len() > 1 && self.triples.iter().any(|triple| part == *triple);
+        reported.iter().map(|part| if merge(part) { UNIVERSAL.as_ref() } else { part }).collect()
+    }
+}
+
+impl Toolchain {
+    /// The platform that it compiles for.
+    ///
+    /// # Errors
+    /// If this machine is none that FMI knows.
+    pub fn platform(self) -> crate::error::Result<Platform> {
+        match self {
+            Self::Own => Platform::of_this_machine(),
+            Self::Cross(target) => Ok(target.platform),
+        }
+    }
+}
+
+/// Whether a program is there.
+fn runs([program, argument]: [&str; 2]) -> bool {
+    let quiet =
+        Command::new(program).arg(argument).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).status();
+    quiet.is_ok_and(|status| status.success())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_platforms_that_share_a_folder_are_apart() {
+        let apart: Vec<_> =
+            TARGETS.iter().filter(|target| target.is_apart()).map(|target| target.platform.folder).collect();
+        assert_eq!(apart, ["aarch64-linux"]);
+    }
+
+    #[test]
+    fn targets_are_named_as_the_tools_want_them() {
+        let arguments: Vec<_> = TARGETS.iter().map(Target::argument).collect();
+        assert_eq!(
+            arguments,
+            [
+                "x86_64-unknown-linux-gnu.2.17",
+                "x86_64-pc-windows-gnu",
+                "universal2-apple-darwin",
+                "aarch64-unknown-linux-gnu.2.17"
+            ]
+        );
+        let reported = Path::new("target/fmu/aarch64-apple-darwin/fmu/libuam_plant.dylib");
+        assert_eq!(TARGETS[2].merged(reported), Path::new("target/fmu/universal2-apple-darwin/fmu/libuam_plant.dylib"));
+        assert_eq!(TARGETS[0].merged(reported), reported);
+    }
+
+    #[test]
+    fn what_is_missing_is_said_with_the_way_to_get_it() {
+        let missing = TARGETS[2].lacks(|_| None).join("; ");
+        if env::var_os("CARGO_UNSTABLE_BUILD_STD").is_none() {
+            for triple in TARGETS[2].triples {
+                assert!(missing.contains(&format!("rustup target add {triple}")), "{missing}");
+            }
+        }
+    }
+}

@@ -1,0 +1,72 @@
+/* A host for Windows: one second of a unit with its first joint moving, then some of its values.
+ *
+ *     host.exe LIBRARY GUID INPUT OUTPUT...      (value references)
+ */
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <windows.h>
+
+typedef void *component;
+
+static void say(void *environment, const char *instance, int status, const char *category, const char *format, ...) {
+    va_list arguments;
+    (void)environment;
+    va_start(arguments, format);
+    fprintf(stderr, "%s, %d, %s: ", instance, status, category);
+    vfprintf(stderr, format, arguments);
+    fprintf(stderr, "\n");
+    va_end(arguments);
+}
+
+static const struct {
+    void (*logger)(void *, const char *, int, const char *, const char *, ...);
+    void *(*allocate)(size_t, size_t);
+    void (*release)(void *);
+    void *step_finished;
+    void *environment;
+} callbacks = {say, calloc, free, NULL, NULL};
+
+static FARPROC function(HMODULE library, const char *name) {
+    FARPROC found = GetProcAddress(library, name);
+    if (!found) {
+        fprintf(stderr, "there is no %s\n", name);
+        exit(2);
+    }
+    return found;
+}
+
+#define CALL(result, name, types) ((result(*) types)function(library, name))
+
+int main(int count, char **arguments) {
+    HMODULE library = count > 4 ? LoadLibraryA(arguments[1]) : NULL;
+    if (!library) {
+        fprintf(stderr, "cannot load the library: error %lu\n", GetLastError());
+        return 2;
+    }
+    component c = CALL(component, "fmi2Instantiate", (const char *, int, const char *, const char *, const void *, int, int))(
+        "windows", 1, arguments[2], "", &callbacks, 0, 1);
+    if (!c) return 1;
+
+    int status = CALL(int, "fmi2SetupExperiment", (component, int, double, double, int, double))(c, 0, 0.0, 0.0, 0, 0.0);
+    status |= CALL(int, "fmi2EnterInitializationMode", (component))(c);
+    status |= CALL(int, "fmi2ExitInitializationMode", (component))(c);
+    unsigned reference = (unsigned)atoi(arguments[3]);
+    const double rate = 0.5;
+    status |= CALL(int, "fmi2SetReal", (component, const unsigned *, size_t, const double *))(c, &reference, 1, &rate);
+    for (int n = 0; n < 1000; n++) status |= CALL(int, "fmi2DoStep", (component, double, double, int))(c, n * 1e-3, 1e-3, 1);
+
+    /* An error must come back as such, with its message: nothing may unwind into the host. */
+    const double no_number = strtod("nan", NULL);
+    int refused = CALL(int, "fmi2SetReal", (component, const unsigned *, size_t, const double *))(c, &reference, 1, &no_number);
+
+    for (int i = 4; i < count; i++) {
+        double value = 0.0;
+        reference = (unsigned)atoi(arguments[i]);
+        status |= CALL(int, "fmi2GetReal", (component, const unsigned *, size_t, double *))(c, &reference, 1, &value);
+        printf("%.17g\n", value);
+    }
+    status |= CALL(int, "fmi2Terminate", (component))(c);
+    CALL(void, "fmi2FreeInstance", (component))(c);
+    return status == 0 && refused == 3 ? 0 : 1;
+}
