@@ -64,6 +64,7 @@ pub fn default_parameters(structure: Structure) -> Parameters {
             stroke: 0.125,
             rate_limit: 5.0,
             acceleration_limit: 5.0,
+            time_constant: 0.02,
         },
         balance_element: BalanceElement { mass: 0.0, com: 0.1, inertia: 0.01, start: 0.0 },
         autopilot: Autopilot { mode: AutopilotMode::Pid, altitude: PICK_ALTITUDE, roll: PICK_ROLL, sample_time: 0.0 },

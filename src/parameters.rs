@@ -205,6 +205,8 @@ pub struct Counterweight {
     pub rate_limit: f64,
     /// Largest change of the commanded rate per time \[m/s2\].
     pub acceleration_limit: f64,
+    /// How long it takes to balance the arm, as time constant \[s\].
+    pub time_constant: f64,
 }
 
 /// The balance element: a body that turns about the UAV's centre of mass, for instance a disc, or a mass on

@@ -282,3 +282,31 @@ fn limits_can_be_tuned() {
         before = rates;
     }
 }
+
+/// With the payload in its hand at rest, the arm does not shake together with the counterweight.
+#[test]
+fn the_counterweight_does_not_chatter() {
+    let (structure, mut p) = counterweight(0.0);
+    p.reference.legs[0] =
+        uam::reference::Leg { duration: 1.5, ramp: 0.5, dx: 0.11, dy: -0.05, ..p.reference.legs[0].clone() };
+    (p.payload.grasp_time, p.support.stiffness) = (-1.0, 0.0);
+    let mut coupling = Coupling::new(structure, &p);
+    let (mut before, mut total) = ([0.0; 7], 0.0);
+    for i in 0..3000 {
+        coupling.step(1e-3);
+        let rates = coupling.commands.rate_command;
+        if i > 2000 {
+            total += rates.iter().zip(before).map(|(rate, before)| (rate - before).abs()).sum::<f64>();
+        }
+        before = rates;
+    }
+    assert!(total < 2.0, "{total}");
+}
+
+#[test]
+fn stops_in_the_wrong_order_are_refused() {
+    let mut p = default_parameters(Structure::DEFAULT);
+    (p.joints[1].lower, p.joints[1].upper) = (1.0, 0.5);
+    let message = p.check(Structure::DEFAULT).unwrap_err().to_string();
+    assert!(message.contains("joint[2].upper") && message.contains("0.5"), "{message}");
+}

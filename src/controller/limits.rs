@@ -48,13 +48,14 @@ impl Limits {
         [-downwards, upwards].map(|rate| rate.min(before + change).max(before - change))
     }
 
-    /// The rate for an interval of length `size` \[s\] from `position` that leads to `target` fastest, without
-    /// overshooting.
+    /// The rate for an interval of length `size` \[s\] from `position` that leads towards `target` without
+    /// overshooting: as fast as the limits allow, and at the end exponentially with the time constant `time` \[s\].
     #[must_use]
-    pub fn approach(&self, target: f64, position: f64, before: f64, size: f64) -> f64 {
+    pub fn approach(&self, target: f64, position: f64, before: f64, size: f64, time: f64) -> f64 {
         let distance = target.min(self.upper).max(self.lower) - position;
         let [least, most] = self.window(position, before, size);
-        (self.stopping_rate(distance.abs(), size) * distance.signum()).min(most).max(least)
+        let speed = self.stopping_rate(distance.abs(), size).min(distance.abs() / time.max(size));
+        (speed * distance.signum()).min(most).max(least)
     }
 
     /// The largest rate r for an interval of length T after which slowing down by a T in each interval covers
@@ -130,13 +131,13 @@ mod tests {
 
         #[test]
         fn an_approach_ends_at_the_target_without_overshooting(
-            acceleration in 0.5..100.0_f64, size in 1e-3..0.1_f64, target in -1.2..1.2_f64,
+            acceleration in 0.5..100.0_f64, size in 1e-3..0.1_f64, target in -1.2..1.2_f64, time in 0.0..0.1_f64,
         ) {
             let limits = Limits { rate: 2.0, acceleration, lower: -1.0, upper: 1.0 };
             let (mut position, mut before) = (0.0_f64, 0.0);
             let end = target.clamp(-1.0, 1.0);
             for _ in 0..20_000 {
-                before = limits.approach(target, position, before, size);
+                before = limits.approach(target, position, before, size, time);
                 position += before * size;
                 prop_assert!(position.abs() <= end.abs() + 1e-12);
             }

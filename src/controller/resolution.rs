@@ -85,6 +85,8 @@ pub(super) struct Resolver<const N: usize> {
     weights: Weights<N>,
     gradient_gain: f64,
     rate_penalty: f64,
+    /// Time constant of the counterweight \[s\].
+    balancing_time: f64,
     limits: [Limits; N],
 }
 
@@ -97,6 +99,7 @@ impl<const N: usize> Resolver<N> {
             weights: Weights::new(parameters, vehicle.links),
             gradient_gain: parameters.ik.gradient_gain,
             rate_penalty: parameters.ik.rate_penalty,
+            balancing_time: parameters.counterweight.time_constant,
             limits: std::array::from_fn(|i| {
                 if i < vehicle.links {
                     Limits::from(&parameters.joints[i])
@@ -134,7 +137,7 @@ impl<const N: usize> Resolver<N> {
             [allowed.least[i], allowed.most[i]] = self.limits[i].window(position[i], before[i], size);
         }
         if let Some(target) = counterweight::balance(vehicle, now) {
-            let rate = self.limits[N - 1].approach(target, position[N - 1], before[N - 1], size);
+            let rate = self.limits[N - 1].approach(target, position[N - 1], before[N - 1], size, self.balancing_time);
             (allowed.least[N - 1], allowed.most[N - 1]) = (rate, rate);
         }
         allowed

@@ -182,7 +182,9 @@ fn declare_outputs(table: &mut Table<Data>, structure: Structure) {
             format!("{name}.rate_command"),
             rate,
             Bounds::ANY,
-            format!("Rate for the {noun} until the next communication point; both resolutions hold it still"),
+            format!(
+                "Rate for the {noun} until the next communication point; 0, except for a counterweight with least_squares"
+            ),
             |d, i| &mut d.outputs.rate_command[i],
         );
     }

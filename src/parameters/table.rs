@@ -342,6 +342,14 @@ pub fn declare_controller<D: AsMut<Parameters>>(table: &mut Table<D>, structure:
                 Bounds::POSITIVE,
                 "Largest change of the rate commanded to the counterweight per time",
                 |d, _| &mut d.as_mut().counterweight.acceleration_limit,
+            )
+            .real(
+                "counterweight.time_constant",
+                &unit::SECOND,
+                Bounds::NON_NEGATIVE,
+                "How fast the counterweight goes where it balances arm and payload, unless limits make it slower; short \
+                 ones make it chatter, since the arm answers to its motion",
+                |d, _| &mut d.as_mut().counterweight.time_constant,
             );
         table.fixed().real(
             "counterweight.stroke",

@@ -1,4 +1,8 @@
 //! The counterweight's own law: it balances what hangs below the UAV (thesis 3.8, steps 1 and 2).
+//!
+//! It does not go there within one interval even if it could. The arm answers to its motion at once, and that
+//! moves the place where it should be by as much or more: it would chatter. With a time constant of many
+//! intervals the loop is calm.
 
 use crate::dynamics::Situation;
 use crate::vehicle::{Balancer, Vehicle};
