@@ -59,6 +59,8 @@ pub struct Inputs {
 pub struct Outputs {
     /// Rates \[rad/s, m/s\].
     pub rate_command: [f64; MAX_COORDINATES],
+    /// Accelerations of the coordinates in the coming interval \[rad/s2, m/s2\].
+    pub acceleration_command: [f64; MAX_COORDINATES],
     /// Whether the payload is to be held.
     pub grasp: bool,
     /// Wanted position of the end effector now \[m\].
@@ -100,6 +102,7 @@ impl Default for Outputs {
     fn default() -> Self {
         Self {
             rate_command: [0.0; MAX_COORDINATES],
+            acceleration_command: [0.0; MAX_COORDINATES],
             grasp: false,
             reference: Vec2::zeros(),
             reference_velocity: Vec2::zeros(),

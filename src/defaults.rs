@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use crate::autopilot::{Autopilot, AutopilotMode, Gains};
 use crate::parameters::{
-    Balance, BalanceElement, BaseModel, Counterweight, Discretization, InverseKinematics, Joint, Link, MAX_LINKS,
+    Balance, BalanceElement, BaseModel, Counterweight, Discretization, Hold, InverseKinematics, Joint, Link, MAX_LINKS,
     MomentModel, Mount, Parameters, Payload, Resolution, Structure, Support, Uav,
 };
 use crate::reference::{Circle, Leg, Profile, Reference, ReferenceKind};
@@ -78,6 +78,7 @@ pub fn default_parameters(structure: Structure) -> Parameters {
             moment_model: MomentModel::FreeBase,
             rate_penalty: 0.0,
             discretization: Discretization::Exact,
+            hold: Hold::ZeroOrder,
         },
         reference: Reference {
             kind: ReferenceKind::Path,

@@ -167,6 +167,8 @@ pub struct Motion<const N: usize> {
     pub slope: SVector<f64, N>,
 }
 
+memory!(Motion<N> { rate, slope });
+
 impl<const N: usize> Motion<N> {
     /// Constant rates.
     #[must_use]

@@ -274,6 +274,16 @@ options! {
 }
 
 options! {
+    #[doc = " How rates move between two plans."]
+    pub enum Hold {
+        #[doc = " They are constant, and jump."]
+        ZeroOrder = "zero_order",
+        #[doc = " They change linearly: the end effector ends the interval at the wanted velocity, too."]
+        FirstOrder = "first_order",
+    }
+}
+
+options! {
     #[doc = " What the arm is taken to feel of the base's motion, in the moment that it exerts on the UAV."]
     pub enum MomentModel {
         #[doc = " Nothing (thesis 3.2)."]
@@ -312,6 +322,8 @@ pub struct InverseKinematics {
     pub rate_penalty: f64,
     /// Prediction of the coming interval.
     pub discretization: Discretization,
+    /// Rates in the coming interval.
+    pub hold: Hold,
 }
 
 /// Everything that describes a run.

@@ -140,8 +140,11 @@ fn the_system_connects_rates_and_grasp_and_nothing_else() {
             .collect();
         let inputs = document.descendants().filter(|node| node.attribute("kind") == Some("input"));
         let inputs: Vec<_> = inputs.map(|input| input.attribute("name").unwrap()).collect();
-        let mut expected: Vec<_> = (1..=structure.links).map(|n| format!("joint[{n}].rate_command")).collect();
-        expected.extend(structure.balance.prefix().map(|name| format!("{name}.rate_command")));
+        let mut expected = Vec::new();
+        for command in ["rate_command", "acceleration_command"] {
+            expected.extend((1..=structure.links).map(|n| format!("joint[{n}].{command}")));
+            expected.extend(structure.balance.prefix().map(|name| format!("{name}.{command}")));
+        }
         expected.push("grasp".to_owned());
         assert_eq!(connections, expected, "{structure}");
         assert_eq!(inputs, expected, "no input is listed without a connection");

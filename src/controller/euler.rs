@@ -10,7 +10,8 @@ use super::planner::Plan;
 use super::prediction::Prediction;
 use super::resolution::{Problem, Resolved, Task};
 use super::response::Response;
-use crate::dynamics::{Dynamics, Loads, Situation, in_inertial_frame};
+use crate::dynamics::{Dynamics, Loads, Motion, Situation, in_inertial_frame};
+use crate::parameters::Hold;
 use crate::planar::Vec2;
 
 /// The explicit part of a step: momentum at its end, and how the system answers to rates.
@@ -68,8 +69,13 @@ impl<const N: usize> Controller<N> {
             },
         );
         let end = explicit.end(&self.dynamics, &rate, horizon);
+        let motion = match self.hold {
+            Hold::ZeroOrder => Motion::constant(rate),
+            // As the thesis handed its rates to the multibody program: linear in between.
+            Hold::FirstOrder => Motion { rate: self.motion.rate, slope: (rate - self.motion.rate) / horizon },
+        };
         Plan {
-            rate,
+            motion,
             status,
             places,
             min_singular_value,
@@ -81,6 +87,6 @@ impl<const N: usize> Controller<N> {
 
     /// The prediction after `size` \[s\] from time `t` at the rates sent.
     pub(super) fn predict_euler(&self, t: f64, size: f64) -> Prediction<N> {
-        self.explicit(t, size).end(&self.dynamics, &self.rate, size)
+        self.explicit(t, size).end(&self.dynamics, &self.motion.rate_after(size), size)
     }
 }

@@ -14,7 +14,7 @@ use crate::bytes::{Memory, Tape};
 use crate::dynamics::{Account, Dynamics, Load, Loads, Motion, Situation};
 use crate::error::{Error, Result};
 use crate::options::Choice;
-use crate::parameters::{Discretization, Parameters, Resolution, Structure};
+use crate::parameters::{Discretization, Hold, Parameters, Resolution, Structure};
 use crate::planar::Vec2;
 use crate::qp::{self, Place, Places};
 use crate::reference::{Reference, ReferenceKind, Target};
@@ -37,7 +37,7 @@ const SHORTENED: f64 = 1e-9;
 /// Rates for one interval.
 #[derive(Debug, Clone)]
 pub(super) struct Plan<const N: usize> {
-    pub rate: SVector<f64, N>,
+    pub motion: Motion<N>,
     pub status: Status,
     /// Which rates are at their limits.
     pub places: Places,
@@ -49,10 +49,10 @@ pub(super) struct Plan<const N: usize> {
 }
 
 impl<const N: usize> Plan<N> {
-    /// A plan to be made: so far it is where `now` is, moving at `rate`.
-    pub fn holding(rate: SVector<f64, N>, now: Prediction<N>) -> Self {
+    /// A plan to be made: so far it is where `now` is, in this motion.
+    pub fn moving(motion: Motion<N>, now: Prediction<N>) -> Self {
         Self {
-            rate,
+            motion,
             status: Status::Ok,
             places: qp::FREE,
             min_singular_value: 0.0,
@@ -65,7 +65,8 @@ impl<const N: usize> Plan<N> {
     /// Whether all that the host will see of it is finite.
     fn check(&self, t: f64) -> Result<()> {
         let values = [self.velocity_residual, self.moment_residual, self.min_singular_value];
-        if let Some(&value) = self.rate.iter().chain(&values).find(|value| !value.is_finite()) {
+        let Motion { rate, slope } = &self.motion;
+        if let Some(&value) = rate.iter().chain(slope).chain(&values).find(|value| !value.is_finite()) {
             return Err(Error::NotFinite { quantity: "planned rate or residual", value, time: t });
         }
         self.end.situation.state.check(t)
@@ -79,13 +80,16 @@ pub struct Controller<const N: usize> {
     pub(super) resolver: Resolver<N>,
     /// The prediction.
     pub(super) now: Prediction<N>,
-    /// Rates sent.
-    pub(super) rate: SVector<f64, N>,
+    /// Rates and accelerations sent.
+    pub(super) motion: Motion<N>,
+    /// Accelerations sent at the communication point before.
+    slope_before: SVector<f64, N>,
     /// Rates of the plan before.
     pub(super) rate_before: SVector<f64, N>,
     /// Which rates are at their limits.
     pub(super) places: Places,
     discretization: Discretization,
+    pub(super) hold: Hold,
     sample_time: f64,
     grasp_time: f64,
     reference: Reference,
@@ -122,13 +126,7 @@ impl<const N: usize> Controller<N> {
     /// If the parameters do not go together.
     pub fn without_plan(structure: Structure, parameters: &Parameters) -> Result<Self> {
         let ik = &parameters.ik;
-        if ik.resolution == Resolution::ExtendedJacobian && structure.links < 3 {
-            return Err(Error::Inconsistent {
-                name: "ik.resolution".to_owned(),
-                expected: format!("an arm of 3 links or more is needed, this one has {structure}; use minimum_norm"),
-                found: ik.resolution.name().to_owned(),
-            });
-        }
+        check_method(structure, parameters)?;
         let mut dynamics = Dynamics::new(structure, parameters, ik.base_model)?;
         // Of an autopilot outside, the pid law with the same gains is the best guess.
         if dynamics.autopilot.mode == AutopilotMode::External {
@@ -139,10 +137,12 @@ impl<const N: usize> Controller<N> {
         Ok(Self {
             resolver: Resolver::new(&dynamics.vehicle, parameters),
             discretization: ik.discretization,
+            hold: ik.hold,
             sample_time: ik.sample_time,
             grasp_time: parameters.payload.grasp_time,
             reference: parameters.reference.clone(),
-            rate: SVector::zeros(),
+            motion: Motion::constant(SVector::zeros()),
+            slope_before: SVector::zeros(),
             rate_before: SVector::zeros(),
             places: qp::FREE,
             planned_at: 0.0,
@@ -178,12 +178,12 @@ impl<const N: usize> Controller<N> {
     fn plan(&mut self, t: f64, inputs: &Inputs, outputs: &mut Outputs) -> Result<()> {
         let target = self.target(t, self.horizon, inputs);
         let plan = match self.discretization {
-            Discretization::Exact => self.plan_towards(t, target.displacement, inputs)?,
+            Discretization::Exact => self.plan_towards(t, &target, inputs)?,
             Discretization::Euler => self.plan_euler(t, self.horizon, target.velocity),
         };
         plan.check(t)?;
         self.aim = target.displacement;
-        self.rate_before = std::mem::replace(&mut self.rate, plan.rate);
+        self.rate_before = std::mem::replace(&mut self.motion, plan.motion).rate;
         self.places = plan.places;
         self.planned_at = t;
         self.planned_end = plan.end;
@@ -194,13 +194,18 @@ impl<const N: usize> Controller<N> {
         Ok(())
     }
 
-    /// A plan that brings the end effector to `target`, or as near to it as it may come in one interval.
-    fn plan_towards(&self, t: f64, target: Vec2, inputs: &Inputs) -> Result<Plan<N>> {
+    /// A plan that brings the end effector onto the `target`, or as near to it as it may come in one interval.
+    fn plan_towards(&self, t: f64, target: &Target, inputs: &Inputs) -> Result<Plan<N>> {
         let (here, now) = (self.now.end_effector(), self.target(t, 0.0, inputs).displacement);
         let left_over = (self.aim - here).cap_magnitude(CATCHING_UP * self.horizon);
         let unforeseen = (now - self.aim).cap_magnitude(UNFORESEEN * self.horizon);
-        let mut plan = self.plan_exact(t, self.horizon, here + left_over + unforeseen + (target - now))?;
-        let missing = target - plan.end.end_effector();
+        let nearer = Target {
+            displacement: here + left_over + unforeseen + (target.displacement - now),
+            velocity: target.velocity + (left_over + unforeseen) / self.horizon,
+            ..*target
+        };
+        let mut plan = self.plan_exact(t, self.horizon, &nearer)?;
+        let missing = target.displacement - plan.end.end_effector();
         plan.velocity_residual = missing.norm() / self.horizon;
         let shortened = (now - here) - (left_over + unforeseen);
         if plan.status == Status::Ok && shortened != Vec2::zeros() && missing.norm() > SHORTENED {
@@ -226,7 +231,7 @@ impl<const N: usize> Controller<N> {
 
     /// What the limits allow in an interval of length `horizon` that begins now.
     pub(super) fn allowed(&self, horizon: f64) -> Allowed<N> {
-        self.resolver.allowed(&self.dynamics.vehicle, &self.now.situation, &self.rate, horizon)
+        self.resolver.allowed(&self.dynamics.vehicle, &self.now.situation, &self.motion.rate, horizon)
     }
 
     /// How the system answers to the rates that the resolution may use.
@@ -245,18 +250,20 @@ impl<const N: usize> Controller<N> {
         } else if self.discretization == Discretization::Euler {
             self.predict_euler(t, size)
         } else {
-            let motion = Motion::constant(self.rate);
             let mut end = self.now.situation;
-            self.dynamics.advance(&mut end, &motion, &Loads::CALM, t, size, Account::None)?;
+            self.dynamics.advance(&mut end, &self.motion, &Loads::CALM, t, size, Account::None)?;
             Prediction::at_end(&self.dynamics, end)
         };
+        self.slope_before = self.motion.slope;
+        self.motion = self.motion.after(size);
         self.now.situation.state.check(t + size)
     }
 
     fn write_prediction(&self, t: f64, inputs: &Inputs, outputs: &mut Outputs) {
         let state = &self.now.situation.state;
         let now = self.target(t, 0.0, inputs);
-        outputs.rate_command[..N].copy_from_slice(self.rate.as_slice());
+        outputs.rate_command[..N].copy_from_slice(self.motion.rate.as_slice());
+        outputs.acceleration_command[..N].copy_from_slice(self.motion.slope.as_slice());
         outputs.grasp = state.held;
         outputs.reference = now.displacement;
         outputs.reference_velocity = now.velocity;
@@ -274,10 +281,12 @@ impl<const N: usize> Memory for Controller<N> {
             dynamics: _,
             resolver: _,
             now,
-            rate,
+            motion,
+            slope_before,
             rate_before,
             places,
             discretization: _,
+            hold: _,
             sample_time: _,
             grasp_time: _,
             reference: _,
@@ -288,7 +297,8 @@ impl<const N: usize> Memory for Controller<N> {
             planned_end,
         } = self;
         now.pass(tape);
-        [rate, rate_before].into_iter().for_each(|rate| rate.pass(tape));
+        motion.pass(tape);
+        [slope_before, rate_before].into_iter().for_each(|values| values.pass(tape));
         places.iter_mut().for_each(|place| tape.one_of(place, &Place::ALL));
         aim.pass(tape);
         [planned_at, horizon].into_iter().for_each(|time| time.pass(tape));
@@ -318,11 +328,10 @@ impl<const N: usize> Planner for Controller<N> {
     }
 
     fn rates(&self, inputs: &Inputs, t: f64) -> Rates {
-        let held = SVector::zeros();
         let mut rates = Rates {
             reference_velocity: self.target(t, 0.0, inputs).acceleration,
             predicted_end_effector: self.end_effector_velocity(),
-            predicted_velocity: self.dynamics.at_end(&self.now.situation, &held, &Load::NONE).acceleration,
+            predicted_velocity: self.dynamics.at_end(&self.now.situation, &self.slope_before, &Load::NONE).acceleration,
             ..Rates::default()
         };
         rates.predicted_position[..N].copy_from_slice(self.now.situation.state.rate.as_slice());
@@ -342,4 +351,21 @@ impl<const N: usize> Planner for Controller<N> {
     fn clone_box(&self) -> Box<dyn Planner> {
         Box::new(self.clone())
     }
+}
+
+/// Whether the method suits the arm, and its parts each other.
+fn check_method(structure: Structure, parameters: &Parameters) -> Result<()> {
+    let Parameters { ik, .. } = parameters;
+    let refused = |name: &str, expected: String, found: &str| {
+        Err(Error::Inconsistent { name: name.to_owned(), expected, found: found.to_owned() })
+    };
+    if ik.resolution == Resolution::ExtendedJacobian && structure.links < 3 {
+        let expected = format!("an arm of 3 links or more is needed, this one has {structure}; use minimum_norm");
+        return refused("ik.resolution", expected, ik.resolution.name());
+    }
+    if ik.resolution == Resolution::LeastSquares && ik.hold == Hold::FirstOrder {
+        let expected = "zero_order with the resolution least_squares, whose limits are those of constant rates";
+        return refused("ik.hold", expected.to_owned(), ik.hold.name());
+    }
+    Ok(())
 }

@@ -157,9 +157,24 @@ impl<const N: usize> Resolver<N> {
         self.scaled(problem, &self.weights.resolve(path, *velocity, &preferred, task, self.reach))
     }
 
+    /// The rates nearest to `preferred` ones that follow the path.
+    pub fn nearest(&self, problem: &Problem<'_, N>, preferred: &SVector<f64, N>) -> SVector<f64, N> {
+        self.weights.resolve(&problem.path, problem.velocity, preferred, None, self.reach).rate
+    }
+
+    /// Rates scaled down so that none exceeds its limit.
+    pub fn within_limits(&self, rate: SVector<f64, N>) -> SVector<f64, N> {
+        rate / self.excess(&rate).max(1.0)
+    }
+
+    /// The largest share of its limit that a rate has.
+    fn excess(&self, rate: &SVector<f64, N>) -> f64 {
+        (0..self.links).map(|i| rate[i].abs() / self.limits[i].rate).fold(0.0, f64::max)
+    }
+
     /// Scales rates down so that none exceeds its limit, and sums up how they came about.
     fn scaled(&self, problem: &Problem<N>, found: &PseudoInverse<N>) -> Resolved<N> {
-        let excess = (0..self.links).map(|i| found.rate[i].abs() / self.limits[i].rate).fold(0.0, f64::max);
+        let excess = self.excess(&found.rate);
         let rate = found.rate / excess.max(1.0);
         Resolved {
             rate,

@@ -173,7 +173,7 @@ fn declare_outputs(table: &mut Table<Data>, structure: Structure) {
             format!("joint[{n}].rate_command"),
             &unit::RADIAN_PER_SECOND,
             Bounds::ANY,
-            format!("Rate for joint {n} until the next communication point"),
+            format!("Rate for joint {n} now, after any jump"),
             |d, i| &mut d.outputs.rate_command[i],
         );
     }
@@ -182,10 +182,27 @@ fn declare_outputs(table: &mut Table<Data>, structure: Structure) {
             format!("{name}.rate_command"),
             rate,
             Bounds::ANY,
-            format!(
-                "Rate for the {noun} until the next communication point; 0, except for a counterweight with least_squares"
-            ),
+            format!("Rate for the {noun} now, after any jump; 0, except for a counterweight with least_squares"),
             |d, i| &mut d.outputs.rate_command[i],
+        );
+    }
+    for i in 0..structure.links {
+        let n = i + 1;
+        table.output().at(i).initially_from(PLAN).real(
+            format!("joint[{n}].acceleration_command"),
+            &unit::RADIAN_PER_SECOND2,
+            Bounds::ANY,
+            format!("Acceleration for joint {n} until the next communication point; 0 with a hold of zero order"),
+            |d, i| &mut d.outputs.acceleration_command[i],
+        );
+    }
+    if let Some(Balancing { name, noun, units: [_, _, acceleration, ..], .. }) = Balancing::new(structure.balance) {
+        table.output().at(structure.links).initially_from(PLAN).real(
+            format!("{name}.acceleration_command"),
+            acceleration,
+            Bounds::ANY,
+            format!("Acceleration for the {noun} until the next communication point; 0 with a hold of zero order"),
+            |d, i| &mut d.outputs.acceleration_command[i],
         );
     }
     table.group(Causality::Output, Variability::Discrete).initially_from(&["payload.grasp_time"]).boolean(

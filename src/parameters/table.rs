@@ -258,6 +258,7 @@ pub fn declare_controller<D: AsMut<Parameters>>(table: &mut Table<D>, structure:
         .choice("ik.discretization", "How the interval between two plans is predicted", |d, _| {
             &mut d.as_mut().ik.discretization
         })
+        .choice("ik.hold", "How rates move between two plans", |d, _| &mut d.as_mut().ik.hold)
         .real(
             "payload.grasp_time",
             &unit::SECOND,

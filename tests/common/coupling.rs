@@ -23,6 +23,7 @@ impl Coupling {
     pub fn try_step(&mut self, size: f64) -> uam::Result<()> {
         let t = self.plant.time;
         self.plant.inputs.rate_command = self.commands.rate_command;
+        self.plant.inputs.acceleration_command = self.commands.acceleration_command;
         self.plant.inputs.grasp = self.commands.grasp;
         self.plant.try_step(size)?;
         self.planner.step(&self.plant.model.parameters, &self.external, t, size, &mut self.commands)

@@ -51,7 +51,8 @@ pub fn controller() -> Markup {
             "initialization on. Connect " code { "joint[i].rate_command" } ", " code { "counterweight.rate_command" }
             " and " code { "grasp" } " to whatever moves the arm: the inputs of the same names of "
             code { "uam_plant" } ", a model of another tool, or a robot. Hold the rates until the next communication "
-            "point. Run both units in parallel, or the plant first."
+            "point, or with " code { "ik.hold" } " = " code { "first_order" } " let them change by "
+            code { "joint[i].acceleration_command" } ". Run both units in parallel, or the plant first."
         }
         p {
             "The start values are a complete payload pick-up of 30 s. For your own vehicle set the parameters of both "

@@ -5,13 +5,16 @@ use crate::variables::Derivative::{self, At, Constant};
 
 /// By names without indices.
 ///
-/// Every continuous output has a first derivative: of the reference the present one, of predictions the left
-/// limit, and 0 of what the controller holds until its next plan. Inputs take none: the controller reads
+/// Every continuous output has a first derivative: of reference and rates the present one, of predictions
+/// the left limit, and 0 of what the controller holds until its next plan. Inputs take none: the controller reads
 /// them at communication points.
 pub const ALL: &[(&str, Derivative<Data>)] = &[
-    ("joint.rate_command", HELD),
-    ("counterweight.rate_command", HELD),
-    ("balance_element.rate_command", HELD),
+    ("joint.rate_command", At(|d, i| &mut d.outputs.acceleration_command[i])),
+    ("counterweight.rate_command", At(|d, i| &mut d.outputs.acceleration_command[i])),
+    ("balance_element.rate_command", At(|d, i| &mut d.outputs.acceleration_command[i])),
+    ("joint.acceleration_command", HELD),
+    ("counterweight.acceleration_command", HELD),
+    ("balance_element.acceleration_command", HELD),
     ("reference.x", At(|d, _| &mut d.outputs.reference_velocity.x)),
     ("reference.y", At(|d, _| &mut d.outputs.reference_velocity.y)),
     ("reference.vx", At(|d, _| &mut d.rates.reference_velocity.x)),
