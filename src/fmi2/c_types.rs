@@ -45,6 +45,9 @@ pub mod status_kind {
     pub const TERMINATED: StatusKind = 3;
 }
 
+/// `fmi2EventInfo` of model exchange, which is never read nor written.
+pub type EventInfo = c_void;
+
 /// `fmi2Boolean`: zero is false, everything else is true.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(transparent)]

@@ -283,5 +283,11 @@ pub unsafe fn not_offered<M: Model>(handle: Handle, call: Call, flag: &'static s
     unsafe { component::call::<M>(handle, call, |_| Err(Error::NotOffered { flag, value })) }
 }
 
+/// Any function of model exchange: never allowed.
+pub unsafe fn model_exchange<M: Model>(handle: Handle, call: Call) -> Status {
+    // SAFETY: promised by the caller.
+    unsafe { component::call::<M>(handle, call, |_| Err(Error::ModelExchange)) }
+}
+
 #[cfg(test)]
 mod tests;

@@ -27,6 +27,9 @@ pub enum Error {
         /// What the model description says of it.
         value: &'static str,
     },
+    /// A function of model exchange.
+    #[error("not available: this unit is for co-simulation, not for model exchange")]
+    ModelExchange,
     /// A value reference that no variable has.
     #[error("no variable has the value reference {reference}; there are 0 to {}", .count.saturating_sub(1))]
     UnknownReference {

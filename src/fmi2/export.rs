@@ -82,6 +82,29 @@ macro_rules! export_fmi2 {
                     = calls::serialize_fmu_state::<$model>(c, state, bytes, size);
                 fmi2DeSerializeFMUstate(c: Component, bytes: *const Byte, size: Size, state: *mut FmuState) -> Status
                     = calls::deserialize_fmu_state::<$model>(c, bytes, size, state);
+
+                // Of model exchange. Some hosts look up every function of the standard before they use any.
+                fmi2EnterEventMode(c: Component) -> Status
+                    = calls::model_exchange::<$model>(c, Call::EnterEventMode);
+                fmi2NewDiscreteStates(c: Component, _info: *mut EventInfo) -> Status
+                    = calls::model_exchange::<$model>(c, Call::NewDiscreteStates);
+                fmi2EnterContinuousTimeMode(c: Component) -> Status
+                    = calls::model_exchange::<$model>(c, Call::EnterContinuousTimeMode);
+                fmi2CompletedIntegratorStep(c: Component, _never_back: Boolean, _event: *mut Boolean,
+                    _terminate: *mut Boolean) -> Status
+                    = calls::model_exchange::<$model>(c, Call::CompletedIntegratorStep);
+                fmi2SetTime(c: Component, _time: Real) -> Status
+                    = calls::model_exchange::<$model>(c, Call::SetTime);
+                fmi2SetContinuousStates(c: Component, _x: *const Real, _count: Size) -> Status
+                    = calls::model_exchange::<$model>(c, Call::SetContinuousStates);
+                fmi2GetDerivatives(c: Component, _derivatives: *mut Real, _count: Size) -> Status
+                    = calls::model_exchange::<$model>(c, Call::GetDerivatives);
+                fmi2GetEventIndicators(c: Component, _indicators: *mut Real, _count: Size) -> Status
+                    = calls::model_exchange::<$model>(c, Call::GetEventIndicators);
+                fmi2GetContinuousStates(c: Component, _x: *mut Real, _count: Size) -> Status
+                    = calls::model_exchange::<$model>(c, Call::GetContinuousStates);
+                fmi2GetNominalsOfContinuousStates(c: Component, _nominals: *mut Real, _count: Size) -> Status
+                    = calls::model_exchange::<$model>(c, Call::GetNominalsOfContinuousStates);
             }
         };
     };

@@ -75,6 +75,16 @@ pub enum Call {
     SerializedFMUstateSize,
     SerializeFMUstate,
     DeSerializeFMUstate,
+    EnterEventMode,
+    NewDiscreteStates,
+    EnterContinuousTimeMode,
+    CompletedIntegratorStep,
+    SetTime,
+    SetContinuousStates,
+    GetDerivatives,
+    GetEventIndicators,
+    GetContinuousStates,
+    GetNominalsOfContinuousStates,
 }
 
 const X: bool = true;
@@ -97,7 +107,13 @@ impl Call {
             GetReal | GetInteger | GetBoolean | GetString      => [X, X, X, X, X],
             SetReal | SetInteger | SetBoolean | SetString      => [X, X, X, O, O],
             DoStep                                             => [O, O, X, O, O],
-            CancelStep                                         => [O, O, O, O, O],
+            CancelStep
+                | EnterEventMode | NewDiscreteStates
+                | EnterContinuousTimeMode
+                | CompletedIntegratorStep | SetTime
+                | SetContinuousStates | GetDerivatives
+                | GetEventIndicators | GetContinuousStates
+                | GetNominalsOfContinuousStates                => [O, O, O, O, O],
             Terminate                                          => [O, O, X, X, X],
             GetStatus | GetRealStatus | GetIntegerStatus
                 | GetBooleanStatus | GetStringStatus           => [O, O, X, X, X],

@@ -56,6 +56,16 @@ unsafe extern "C" {
     fn fmi2SerializedFMUstateSize(c: *mut c_void, state: *mut c_void, size: *mut usize) -> c_int;
     fn fmi2SerializeFMUstate(c: *mut c_void, state: *mut c_void, bytes: *mut c_char, size: usize) -> c_int;
     fn fmi2DeSerializeFMUstate(c: *mut c_void, bytes: *const c_char, size: usize, state: *mut *mut c_void) -> c_int;
+    fn fmi2EnterEventMode(c: *mut c_void) -> c_int;
+    fn fmi2NewDiscreteStates(c: *mut c_void, info: *mut c_void) -> c_int;
+    fn fmi2EnterContinuousTimeMode(c: *mut c_void) -> c_int;
+    fn fmi2CompletedIntegratorStep(c: *mut c_void, never_back: c_int, event: *mut c_int, terminate: *mut c_int) -> c_int;
+    fn fmi2SetTime(c: *mut c_void, time: f64) -> c_int;
+    fn fmi2SetContinuousStates(c: *mut c_void, x: *const f64, n: usize) -> c_int;
+    fn fmi2GetDerivatives(c: *mut c_void, derivatives: *mut f64, n: usize) -> c_int;
+    fn fmi2GetEventIndicators(c: *mut c_void, indicators: *mut f64, n: usize) -> c_int;
+    fn fmi2GetContinuousStates(c: *mut c_void, x: *mut f64, n: usize) -> c_int;
+    fn fmi2GetNominalsOfContinuousStates(c: *mut c_void, nominals: *mut f64, n: usize) -> c_int;
 }
 
 #[test]

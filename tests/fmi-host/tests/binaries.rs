@@ -13,21 +13,29 @@ use uam::Structure;
 /// Largest admissible library \[B\].
 const LARGEST: usize = 1_000_000;
 
-/// FMI 2.0, `fmi2Functions.h`: what every co-simulation unit must export, available or not.
-const FUNCTIONS: [&str; 34] = [
+/// All functions of FMI 2.0, `fmi2Functions.h`. Those of co-simulation must be there, available or not; those
+/// of model exchange need not, but some hosts look all of them up.
+const FUNCTIONS: [&str; 44] = [
     "fmi2CancelStep",
+    "fmi2CompletedIntegratorStep",
     "fmi2DeSerializeFMUstate",
     "fmi2DoStep",
+    "fmi2EnterContinuousTimeMode",
+    "fmi2EnterEventMode",
     "fmi2EnterInitializationMode",
     "fmi2ExitInitializationMode",
     "fmi2FreeFMUstate",
     "fmi2FreeInstance",
     "fmi2GetBoolean",
     "fmi2GetBooleanStatus",
+    "fmi2GetContinuousStates",
+    "fmi2GetDerivatives",
     "fmi2GetDirectionalDerivative",
+    "fmi2GetEventIndicators",
     "fmi2GetFMUstate",
     "fmi2GetInteger",
     "fmi2GetIntegerStatus",
+    "fmi2GetNominalsOfContinuousStates",
     "fmi2GetReal",
     "fmi2GetRealOutputDerivatives",
     "fmi2GetRealStatus",
@@ -37,16 +45,19 @@ const FUNCTIONS: [&str; 34] = [
     "fmi2GetTypesPlatform",
     "fmi2GetVersion",
     "fmi2Instantiate",
+    "fmi2NewDiscreteStates",
     "fmi2Reset",
     "fmi2SerializeFMUstate",
     "fmi2SerializedFMUstateSize",
     "fmi2SetBoolean",
+    "fmi2SetContinuousStates",
     "fmi2SetDebugLogging",
     "fmi2SetFMUstate",
     "fmi2SetInteger",
     "fmi2SetReal",
     "fmi2SetRealInputDerivatives",
     "fmi2SetString",
+    "fmi2SetTime",
     "fmi2SetupExperiment",
     "fmi2Terminate",
 ];

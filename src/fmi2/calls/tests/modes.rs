@@ -2,7 +2,7 @@
 
 use super::*;
 
-const CALLS: [Call; 30] = [
+const CALLS: [Call; 40] = [
     Call::SetDebugLogging,
     Call::SetupExperiment,
     Call::EnterInitializationMode,
@@ -33,6 +33,16 @@ const CALLS: [Call; 30] = [
     Call::SerializedFMUstateSize,
     Call::SerializeFMUstate,
     Call::DeSerializeFMUstate,
+    Call::EnterEventMode,
+    Call::NewDiscreteStates,
+    Call::EnterContinuousTimeMode,
+    Call::CompletedIntegratorStep,
+    Call::SetTime,
+    Call::SetContinuousStates,
+    Call::GetDerivatives,
+    Call::GetEventIndicators,
+    Call::GetContinuousStates,
+    Call::GetNominalsOfContinuousStates,
 ];
 
 /// Calls with arguments that are right if the call is; `state`: one of the same unit.
@@ -78,13 +88,24 @@ fn call(call: Call, c: *mut c_void, state: *mut c_void) -> c_int {
                 assert_eq!(fmi2SerializeFMUstate(c, state, bytes.as_mut_ptr(), bytes.len()), OK);
                 fmi2DeSerializeFMUstate(c, bytes.as_ptr(), bytes.len(), &raw mut none)
             }
+            Call::EnterEventMode => fmi2EnterEventMode(c),
+            Call::NewDiscreteStates => fmi2NewDiscreteStates(c, null_mut()),
+            Call::EnterContinuousTimeMode => fmi2EnterContinuousTimeMode(c),
+            Call::CompletedIntegratorStep => fmi2CompletedIntegratorStep(c, 1, truth, truth),
+            Call::SetTime => fmi2SetTime(c, 0.0),
+            Call::SetContinuousStates => fmi2SetContinuousStates(c, real, 1),
+            Call::GetDerivatives => fmi2GetDerivatives(c, real, 1),
+            Call::GetEventIndicators => fmi2GetEventIndicators(c, real, 1),
+            Call::GetContinuousStates => fmi2GetContinuousStates(c, real, 1),
+            Call::GetNominalsOfContinuousStates => fmi2GetNominalsOfContinuousStates(c, real, 1),
         }
     }
 }
 
 /// Whether the unit offers what the call is for.
 fn offered(call: Call) -> bool {
-    !matches!(call, Call::CancelStep | Call::GetIntegerStatus | Call::GetDirectionalDerivative)
+    !matches!(call, Call::GetIntegerStatus | Call::GetDirectionalDerivative)
+        && State::ALL.into_iter().any(|state| call.allowed_in(state))
 }
 
 #[test]
