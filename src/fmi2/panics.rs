@@ -2,8 +2,11 @@
 
 use std::any::Any;
 use std::cell::Cell;
-use std::panic::{self, AssertUnwindSafe};
-use std::sync::Once;
+use std::panic::{self, AssertUnwindSafe, PanicHookInfo};
+use std::sync::{Once, OnceLock};
+
+/// What is called when something panics.
+type Hook = Box<dyn Fn(&PanicHookInfo<'_>) + Send + Sync>;
 
 thread_local! {
     /// Whether this thread is inside [`caught`].
@@ -14,10 +17,13 @@ thread_local! {
 /// which links this library as Rust code loses nothing.
 pub fn silence() {
     static ONCE: Once = Once::new();
+    // Neither this one nor the closure below is in memory of its own, as long as the hook is that of Rust
+    // itself: what a library allocates for good is lost when the host unloads it.
+    static OTHER: OnceLock<Hook> = OnceLock::new();
     ONCE.call_once(|| {
-        let other = panic::take_hook();
-        panic::set_hook(Box::new(move |panic| {
-            if !INSIDE.get() {
+        OTHER.get_or_init(panic::take_hook);
+        panic::set_hook(Box::new(|panic| {
+            if let (false, Some(other)) = (INSIDE.get(), OTHER.get()) {
                 other(panic);
             }
         }));

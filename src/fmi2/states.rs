@@ -44,10 +44,22 @@ pub fn with<T: 'static, R>(handle: FmuState, body: impl FnOnce(&mut T) -> R) -> 
 /// Ends the life of a state; `false` if there is none of this type.
 pub fn free<T: 'static>(handle: FmuState) -> bool {
     let known = with::<T, _>(handle, |_| ()).is_some();
-    known && lock(&ALIVE).remove(&handle.addr()).is_some()
+    let mut alive = lock(&ALIVE);
+    let removed = known && alive.remove(&handle.addr()).is_some();
+    give_back(&mut alive);
+    removed
 }
 
 /// Ends the life of all states of an owner.
 pub fn free_all(owner: usize) {
-    lock(&ALIVE).retain(|_, entry| entry.owner != owner);
+    let mut alive = lock(&ALIVE);
+    alive.retain(|_, entry| entry.owner != owner);
+    give_back(&mut alive);
+}
+
+/// A map that has become empty keeps memory, which would be lost when the host unloads the library.
+fn give_back(alive: &mut BTreeMap<usize, Entry>) {
+    if alive.is_empty() {
+        *alive = BTreeMap::new();
+    }
 }
