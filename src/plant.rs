@@ -10,7 +10,7 @@ pub use simulation::Plant;
 pub use slopes::Slopes;
 
 use crate::bytes::Memory;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::for_coordinates;
 use crate::parameters::{MAX_COORDINATES, Parameters, Structure};
 use crate::planar::Vec2;
@@ -86,6 +86,30 @@ pub struct Outputs {
     pub payload_force: Vec2,
     /// Force of the support on the held payload, upwards \[N\].
     pub support_force: f64,
+}
+
+impl Outputs {
+    /// Whether all that is computed from the state is finite, too: huge parameters and loads overflow there first.
+    ///
+    /// # Errors
+    /// Names the first quantity that is not, at `time` \[s\].
+    pub fn check(&self, time: f64) -> Result<()> {
+        let quantities = [
+            ("acceleration of the UAV", self.acceleration.sum()),
+            ("effort of the joints", self.effort.iter().sum()),
+            ("position of the end effector", self.end_effector.sum()),
+            ("velocity of the end effector", self.end_effector_velocity.sum()),
+            ("thrust or torque", self.thrust + self.torque),
+            ("transmitted wrench", self.transmitted_force.sum() + self.transmitted_moment),
+            ("momentum", self.momentum.sum()),
+            ("centre of mass", self.center_of_mass.sum()),
+            ("force of the payload", self.payload_force.sum() + self.support_force),
+        ];
+        match quantities.into_iter().find(|(_, value)| !value.is_finite()) {
+            Some((quantity, value)) => Err(Error::NotFinite { quantity, value, time }),
+            None => Ok(()),
+        }
+    }
 }
 
 /// How fast those observations change that are not means over the step and whose rate is no observation

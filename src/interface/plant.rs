@@ -80,6 +80,7 @@ impl Model for PlantUnit {
     fn initialize(structure: Structure, data: &mut Data, _start_time: f64) -> Result<Self, Error> {
         let simulation = plant::new(structure, &data.parameters)?;
         simulation.initial_outputs(&mut data.outputs);
+        data.outputs.check(0.0)?;
         Ok(Self(simulation))
     }
 

@@ -111,7 +111,7 @@ impl<const N: usize> Simulation for Plant<N> {
         };
         self.means.add(impulse, size);
         self.means.write(&self.dynamics, &self.situation, loads.present(0.5 * size, &mut room), outputs);
-        Ok(())
+        outputs.check(t + size)
     }
 
     fn rates(&self) -> Rates {
