@@ -1,0 +1,48 @@
+//! The host's side of an instance: callbacks, and what the unit says through them.
+
+use std::cell::RefCell;
+use std::ffi::{CStr, c_char, c_int, c_void};
+use std::ptr;
+
+use crate::functions::Callbacks;
+
+thread_local! {
+    /// Number of messages of this thread so far, and the last one.
+    static SAID: RefCell<(u64, Vec<u8>)> = const { RefCell::new((0, Vec::new())) };
+}
+
+/// A variadic logger cannot be written in stable Rust. This one takes the first variable argument as a fixed
+/// one, which the calling conventions of Linux and Windows on x86-64 and of Linux on arm64 pass alike.
+extern "C" fn log(
+    _: *mut c_void,
+    instance: *const c_char,
+    _: c_int,
+    category: *const c_char,
+    format: *const c_char,
+    text: *const c_char,
+) {
+    SAID.with_borrow_mut(|(count, last)| {
+        *count += 1;
+        last.clear();
+        for text in [instance, category, format, text] {
+            // SAFETY: all texts end with a zero.
+            last.extend(unsafe { CStr::from_ptr(text) }.to_bytes());
+            last.push(b'\n');
+        }
+    });
+}
+
+/// Callbacks with a logger, and nothing else.
+pub fn callbacks() -> Callbacks {
+    Callbacks { logger: log as *const c_void, memory_and_step: [ptr::null(); 3], environment: ptr::null_mut() }
+}
+
+/// How many messages there have been in this thread.
+pub fn messages() -> u64 {
+    SAID.with_borrow(|(count, _)| *count)
+}
+
+/// Calls `look` with the last message of this thread: instance, category, format and text, a line each.
+pub fn last<R>(look: impl FnOnce(&[u8]) -> R) -> R {
+    SAID.with_borrow(|(_, last)| look(last))
+}

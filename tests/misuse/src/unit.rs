@@ -1,0 +1,71 @@
+//! A unit as a host finds it: the .fmu file, unpacked, read and loaded.
+
+use std::error::Error;
+use std::ffi::CString;
+use std::fs::{self, File};
+use std::path::Path;
+
+use fmu_build::platform::Platform;
+
+use crate::functions::Functions;
+
+/// What the model description says of a variable.
+pub struct Variable {
+    pub reference: u32,
+    pub output: bool,
+    pub real: bool,
+    pub name: String,
+}
+
+/// An unpacked and loaded FMU.
+pub struct Unit {
+    pub name: String,
+    pub guid: CString,
+    pub variables: Vec<Variable>,
+    pub functions: Functions,
+    /// Stays as long as the library is loaded.
+    _folder: tempfile::TempDir,
+}
+
+impl Unit {
+    /// Opens a .fmu file. Its library is loaded with global symbols.
+    pub fn open(path: &Path) -> Result<Self, Box<dyn Error>> {
+        let folder = tempfile::tempdir()?;
+        zip::ZipArchive::new(File::open(path)?)?.extract(folder.path())?;
+        let text = fs::read_to_string(folder.path().join("modelDescription.xml"))?;
+        let description = roxmltree::Document::parse(&text)?;
+        let root = description.root_element();
+        let attribute = |name: &str| root.attribute(name).ok_or_else(|| format!("{name} is missing"));
+        let name = attribute("modelName")?.to_owned();
+        let variables = root.descendants().filter(|node| node.has_tag_name("ScalarVariable"));
+        let variables: Result<Vec<_>, Box<dyn Error>> = variables
+            .map(|node| {
+                Ok(Variable {
+                    reference: node.attribute("valueReference").ok_or("no value reference")?.parse()?,
+                    output: node.attribute("causality") == Some("output"),
+                    real: node.first_element_child().is_some_and(|kind| kind.has_tag_name("Real")),
+                    name: node.attribute("name").ok_or("no name")?.to_owned(),
+                })
+            })
+            .collect();
+        let library = folder.path().join(Platform::of_this_machine()?.library(&name));
+        Ok(Self {
+            guid: CString::new(attribute("guid")?)?,
+            variables: variables?,
+            functions: Functions::load(&library)?,
+            name,
+            _folder: folder,
+        })
+    }
+
+    /// Value references of the real outputs.
+    pub fn real_outputs(&self) -> Vec<u32> {
+        let outputs = self.variables.iter().filter(|variable| variable.output && variable.real);
+        outputs.map(|variable| variable.reference).collect()
+    }
+
+    /// Value reference of a variable.
+    pub fn reference(&self, name: &str) -> Option<u32> {
+        self.variables.iter().find(|variable| variable.name == name).map(|variable| variable.reference)
+    }
+}
