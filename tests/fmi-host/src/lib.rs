@@ -10,7 +10,7 @@ use std::sync::Mutex;
 use fmi::fmi2::Fmi2Error;
 use fmi::fmi2::import::Fmi2Import;
 use fmi::fmi2::instance::{CoSimulation, Common, InstanceCS};
-use fmi::fmi2::schema::ScalarVariableElement;
+use fmi::fmi2::schema::{Causality, ScalarVariableElement};
 use fmi::traits::FmiImport;
 use fmu_build::{BuildOptions, Built, build};
 use uam::Structure;
@@ -95,6 +95,19 @@ impl Unit {
         &self.import
     }
 
+    /// Names of the variables of a causality, in the order of the model description.
+    #[must_use]
+    pub fn names(&self, causality: &Causality) -> Vec<String> {
+        let variables = self.import.model_description().get_model_variables();
+        variables.filter(|variable| variable.causality == *causality).map(|variable| variable.name.clone()).collect()
+    }
+
+    /// Names of the outputs.
+    #[must_use]
+    pub fn outputs(&self) -> Vec<String> {
+        self.names(&Causality::Output)
+    }
+
     /// The value reference of a variable.
     #[must_use]
     pub fn reference(&self, name: &str) -> u32 {
@@ -174,9 +187,8 @@ impl Slave<'_> {
     /// All outputs, bit by bit.
     #[must_use]
     pub fn outputs(&mut self) -> Vec<(String, u64)> {
-        use fmi::fmi2::schema::Causality;
-        let variables = self.unit.import.model_description().get_model_variables();
-        let outputs = variables.filter(|variable| variable.causality == Causality::Output);
-        outputs.map(|variable| (variable.name.clone(), self.get(&variable.name).to_bits())).collect()
+        let names = self.unit.outputs();
+        let values: Vec<u64> = names.iter().map(|name| self.get(name).to_bits()).collect();
+        names.into_iter().zip(values).collect()
     }
 }

@@ -2,7 +2,6 @@
 
 use fmi::fmi2::Fmi2Error;
 use fmi::fmi2::schema::Causality;
-use fmi::traits::FmiImport;
 use uam::Structure;
 
 use crate::{Slave, Unit};
@@ -67,14 +66,14 @@ impl Coupling {
     /// Opens both FMUs.
     #[must_use]
     pub fn open(structure: Structure) -> Self {
-        let (controller, plant) = (Unit::controller(structure), Unit::plant(structure));
-        let names = |unit: &Unit, causality: &Causality| {
-            let variables = unit.import().model_description().get_model_variables();
-            let found = variables.filter(|variable| variable.causality == *causality);
-            found.map(|variable| variable.name.clone()).collect::<Vec<_>>()
-        };
-        let inputs = names(&plant, &Causality::Input);
-        let mut commands = names(&controller, &Causality::Output);
+        Self::between(Unit::controller(structure), Unit::plant(structure))
+    }
+
+    /// Connects equal names.
+    #[must_use]
+    pub fn between(controller: Unit, plant: Unit) -> Self {
+        let inputs = plant.names(&Causality::Input);
+        let mut commands = controller.outputs();
         commands.retain(|name| inputs.contains(name));
         Self { controller, plant, commands }
     }
@@ -88,6 +87,21 @@ impl Coupling {
         parameters: &[(&str, f64)],
         steps: impl IntoIterator<Item = (f64, f64)>,
     ) -> Result<Track, Fmi2Error> {
+        let mut track = Track::default();
+        self.observe(parameters, steps, |time, controller, plant| record(&mut track, time, controller, plant))?;
+        Ok(track)
+    }
+
+    /// Like [`Coupling::run`]; `look` is called at every communication point with the time and both units.
+    ///
+    /// # Errors
+    /// If a unit does not do a step.
+    pub fn observe(
+        &self,
+        parameters: &[(&str, f64)],
+        steps: impl IntoIterator<Item = (f64, f64)>,
+        mut look: impl FnMut(f64, &mut Slave<'_>, &mut Slave<'_>),
+    ) -> Result<(), Fmi2Error> {
         let (mut controller, mut plant) = (self.controller.instantiate("controller"), self.plant.instantiate("plant"));
         for &(name, value) in parameters {
             for slave in [&mut controller, &mut plant] {
@@ -101,8 +115,7 @@ impl Coupling {
         controller.initialize(start, None);
         plant.initialize(start, None);
 
-        let mut track = Track::default();
-        record(&mut track, start, &mut controller, &mut plant);
+        look(start, &mut controller, &mut plant);
         for (from, size) in steps {
             for name in &self.commands {
                 let value = controller.get(name);
@@ -110,9 +123,9 @@ impl Coupling {
             }
             plant.step(from, size)?;
             controller.step(from, size)?;
-            record(&mut track, from + size, &mut controller, &mut plant);
+            look(from + size, &mut controller, &mut plant);
         }
-        Ok(track)
+        Ok(())
     }
 }
 
