@@ -7,7 +7,8 @@
 
 environment="${CARGO_TARGET_DIR:-target}/venv"
 python="$environment/bin/python"
-requirements=tests/python/requirements.txt
+requirements=(tests/python/requirements.txt)
+if [[ -n "${UAM_FULL-}" ]]; then requirements+=(tests/python/requirements-full.txt); fi
 
 fail() {
     printf 'error: %s\n' "$@" >&2
@@ -23,7 +24,7 @@ make_environment() {
 
     # What was asked for when the environment was made: if it is the same now, nothing is to be done.
     local wanted
-    wanted="$("$base" -c 'import sys; print(sys.version, sys.base_prefix)') $(cksum <"$requirements")"
+    wanted="$("$base" -c 'import sys; print(sys.version, sys.base_prefix)') $(cat "${requirements[@]}" | cksum)"
     [[ -x "$python" && "$(cat "$environment/made-for" 2>/dev/null)" == "$wanted" ]] && return
 
     echo "Making the Python environment $environment ..."
@@ -34,8 +35,8 @@ make_environment() {
         fail "$base cannot make virtual environments (Debian: apt-get install python3-venv)" \
             "PYTHON=... names another interpreter"
     }
-    "$python" -m pip install --quiet --disable-pip-version-check --requirement "$requirements" ||
-        fail "the packages in $requirements cannot be installed; see above"
+    "$python" -m pip install --quiet --disable-pip-version-check "${requirements[@]/#/--requirement=}" ||
+        fail "the packages in ${requirements[*]} cannot be installed; see above"
     printf '%s\n' "$wanted" >"$environment/made-for"
 }
 
