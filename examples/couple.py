@@ -62,7 +62,7 @@ def couple(folder: Path, step: float = 1e-3, stop: float = 30.0, **parameters: f
 
 if __name__ == "__main__":
     folder = Path(sys.argv[1] if len(sys.argv) > 1 else "out")
-    for resolution, name in enumerate(["minimum norm", "extended Jacobian"], start=1):
+    for resolution, name in {1: "minimum norm", 3: "extended Jacobian"}.items():
         run = couple(folder, **{"ik.resolution": resolution})
         x, y, roll = 1e3 * run["base.x"], 1e3 * run["base.y"], np.degrees(run["base.roll"])
         off = np.hypot(*(run[f"end_effector.{axis}"] - run[f"reference.{axis}"] for axis in "xy"))

@@ -142,7 +142,7 @@ fn the_controller_names_what_it_cannot_work_with() {
     let mut slave = controller.instantiate("controller");
     assert!(slave.try_set("ik.resolution", 99.0).is_err());
     let said = messages.errors_of("controller");
-    let words = ["ik.resolution", "1 (minimum_norm)", "2 (extended_jacobian)", "99"];
+    let words = ["ik.resolution", "1 (minimum_norm)", "3 (extended_jacobian)", "99"];
     assert!(words.iter().all(|word| said.contains(word)), "{said}");
     assert!(slave.try_set("sample_time", 0.0).is_err());
     assert!(messages.errors_of("controller").contains("sample_time"));

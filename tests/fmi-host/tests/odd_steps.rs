@@ -17,7 +17,7 @@ fn apart(one: &Track, other: &Track) -> f64 {
 fn compare(bar: f64, odd: impl Fn(f64, u32) -> Vec<(f64, f64)>) {
     let coupling = Coupling::open(Structure::DEFAULT);
     for (size, count) in [(1e-2, 100 * DURATION), (1e-3, 1000 * DURATION)] {
-        for resolution in [1.0, 2.0] {
+        for resolution in [1.0, 3.0] {
             let parameters = [("ik.resolution", resolution)];
             let even = coupling.run(&parameters, steps(0.0, size, count)).unwrap();
             let odd = coupling.run(&parameters, odd(size, count)).unwrap();

@@ -6,7 +6,7 @@ use fmi_host::{Coupling, Track, steps};
 use uam::Structure;
 
 const MINIMUM_NORM: (&str, f64) = ("ik.resolution", 1.0);
-const EXTENDED_JACOBIAN: (&str, f64) = ("ik.resolution", 2.0);
+const EXTENDED_JACOBIAN: (&str, f64) = ("ik.resolution", 3.0);
 const EULER: (&str, f64) = ("ik.discretization", 1.0);
 const EXACT: (&str, f64) = ("ik.discretization", 2.0);
 const STIFF_ROLL_RATE: (&str, f64) = ("autopilot.roll.kd", 9.0);
