@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 
 use crate::autopilot::{Autopilot, AutopilotMode, Gains};
 use crate::parameters::{
-    Balance, BalanceElement, BaseModel, Counterweight, Discretization, Hold, InverseKinematics, Joint, Link, MAX_LINKS,
-    MomentModel, Mount, Parameters, Payload, Resolution, Structure, Support, Uav,
+    Actuation, Balance, BalanceElement, BaseModel, Counterweight, Discretization, Hold, InverseKinematics, Joint, Link,
+    MAX_LINKS, MomentModel, Mount, Parameters, Payload, Resolution, Structure, Support, Uav,
 };
 use crate::reference::{Circle, Leg, Profile, Reference, ReferenceKind};
 
@@ -55,6 +55,7 @@ pub fn default_parameters(structure: Structure) -> Parameters {
             acceleration_limit: 1e6,
             lower: -100.0,
             upper: 100.0,
+            actuation: Actuation::Rate,
         }),
         counterweight: Counterweight {
             mass: 2.2,

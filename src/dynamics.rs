@@ -8,6 +8,7 @@ mod account;
 mod advance;
 mod base;
 mod contact;
+mod driven;
 mod instant;
 mod law;
 mod loads;
@@ -21,6 +22,7 @@ use std::ops::Add;
 use nalgebra::{SVector, Vector3};
 
 pub use account::Account;
+pub use driven::{Driven, Torques};
 pub use instant::{Instant, Trend};
 pub use law::Node;
 pub use loads::{Load, Loads};

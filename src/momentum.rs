@@ -30,6 +30,14 @@ impl Twist {
     pub const ZERO: Self = Self { linear: vec2(0.0, 0.0), angular: 0.0 };
 }
 
+impl Twist {
+    /// Sum of the products of its parts with those of `other`.
+    #[must_use]
+    pub fn dot(self, other: Self) -> f64 {
+        self.linear.dot(&other.linear) + self.angular * other.angular
+    }
+}
+
 impl Add for Twist {
     type Output = Self;
 
@@ -248,6 +256,43 @@ pub fn inertial_load<const N: usize>(
         }
     }
     load
+}
+
+/// The moments about the joints that keep what lies outboard of each on its way, likewise; none for what
+/// balances the arm.
+#[must_use]
+pub fn inertial_moments<const N: usize>(
+    vehicle: &Vehicle<N>,
+    posture: &Posture<N>,
+    held: bool,
+    roll_rate: f64,
+    rate: &SVector<f64, N>,
+    rate_slope: &SVector<f64, N>,
+) -> SVector<f64, N> {
+    let bodies = vehicle.bodies(held);
+    let mut own = [Twist::ZERO; N];
+    let (mut omega, mut alpha) = (roll_rate, 0.0);
+    let mut acceleration = vehicle.mount * (-roll_rate * roll_rate);
+    for i in 0..vehicle.links {
+        omega += rate[i];
+        alpha += rate_slope[i];
+        let (body, direction) = (&bodies[i], posture.direction[i]);
+        let spread = perp(direction) * alpha - direction * (omega * omega);
+        own[i] = Twist {
+            linear: acceleration * body.mass + spread * body.first,
+            angular: cross(direction, acceleration) * body.first + alpha * body.second,
+        };
+        acceleration += spread * vehicle.length[i];
+    }
+    let mut moments = SVector::zeros();
+    let mut outer = Twist::ZERO;
+    for i in (0..vehicle.links).rev() {
+        let lever = posture.direction[i] * vehicle.length[i];
+        outer.angular += own[i].angular + cross(lever, outer.linear);
+        outer.linear += own[i].linear;
+        moments[i] = outer.angular;
+    }
+    moments
 }
 
 /// Acceleration of the end effector while the base accelerates by `base` and the coordinates by

@@ -11,7 +11,7 @@ use crate::variables::{Kind, Table};
 
 mod table;
 
-pub use table::{declare_controller, declare_shared};
+pub use table::{declare_controller, declare_plant, declare_shared};
 
 /// Largest number of revolute links of an arm.
 pub const MAX_LINKS: usize = 6;
@@ -171,6 +171,16 @@ pub struct Link {
     pub inertia: f64,
 }
 
+options! {
+    #[doc = " What the motor of a joint follows."]
+    pub enum Actuation {
+        #[doc = " The commanded rate, whatever torque that takes."]
+        Rate = "rate",
+        #[doc = " The commanded torque; none lets the joint turn freely (thesis 3.6)."]
+        Torque = "torque",
+    }
+}
+
 /// One revolute joint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Joint {
@@ -186,6 +196,8 @@ pub struct Joint {
     pub lower: f64,
     /// Largest angle \[rad\].
     pub upper: f64,
+    /// What its motor follows in the plant.
+    pub actuation: Actuation,
 }
 
 /// The sliding counterweight, for instance the battery (thesis 3.8).
@@ -368,6 +380,7 @@ impl Parameters {
         let mut table = Table::default();
         declare_shared(&mut table, structure);
         declare_controller(&mut table, structure);
+        declare_plant(&mut table, structure);
         table
     }
 

@@ -23,6 +23,8 @@ pub struct Inputs {
     pub rate_command: [f64; MAX_COORDINATES],
     /// Slopes of the rates within the step \[rad/s2, m/s2\].
     pub acceleration_command: [f64; MAX_COORDINATES],
+    /// Torques of the motors of joints that follow a torque \[N m\].
+    pub joint_torque_command: [f64; MAX_COORDINATES],
     /// Whether the payload is to be held.
     pub grasp: bool,
     /// Wanted altitude \[m\].

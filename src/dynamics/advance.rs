@@ -22,16 +22,16 @@ const RESOLUTION: f64 = 0.01;
 const SUPPORT_RESOLUTION: f64 = 0.005;
 
 /// A base that tumbles drags everything along and adds up errors over its turns: it counts so much more.
-const TUMBLING: f64 = 3.0;
+pub(super) const TUMBLING: f64 = 3.0;
 
 /// Most internal steps in one step, which then takes a tenth of a second; more are taken for a mistake.
-const MOST_STEPS: f64 = 2e5;
+pub(super) const MOST_STEPS: f64 = 2e5;
 
 /// So often the turns of links and UAV, sums of small turns, are made to agree with their angles \[1/s\].
 const REFRESHED: f64 = 16.0;
 
 /// An instant this close to a sample of the autopilot is the sample \[s\].
-const SAME_INSTANT: f64 = 1e-9;
+pub(super) const SAME_INSTANT: f64 = 1e-9;
 
 impl<const N: usize> Dynamics<N> {
     /// Advances `situation` from time `t`, counted from the start, by `size` \[s\] under the imposed
@@ -108,18 +108,7 @@ impl<const N: usize> Dynamics<N> {
         *turn = self.arm_turn(&flow);
         self.settle(state, &flow, node);
         state.rate = motion.rate_after(size);
-        let mut impulse = Impulse { thrust: Vec2::zeros(), torque: flow[10], support: flow[11] };
-        if self.on_carriage() {
-            let h = node.matrix.of_base(self.base_velocity(&flow, Turn::NONE, node)) + node.arm;
-            impulse.thrust = vec2(0.0, h.linear.y - flow[4]);
-            impulse.torque = h.angular - flow[5];
-            (state.momentum.y, state.momentum.z) = (h.linear.y, h.angular);
-        } else {
-            // What the momentum has gained, and no other force gave.
-            let load = loads.present(0.5 * size, &mut room);
-            let others = load.base_force + load.tip_force + vec2(0.0, -node.matrix.mass * self.vehicle.gravity);
-            impulse.thrust = (state.momentum - momentum).xy() - others * size - vec2(0.0, impulse.support);
-        }
+        let impulse = self.impulse(state, &momentum, &flow, node, loads, size);
         if let Account::Carried(sum) = account
             && self.carried_load_is_a_balance()
         {
@@ -131,8 +120,35 @@ impl<const N: usize> Dynamics<N> {
         Ok(impulse)
     }
 
+    /// What a step of length `size` that began with the momentum `before` gave; on a carriage, writes momentum into
+    /// `state`.
+    pub(super) fn impulse(
+        &self,
+        state: &mut State<N>,
+        before: &Vector3<f64>,
+        flow: &Flow,
+        node: &Node<N>,
+        loads: &Loads,
+        size: f64,
+    ) -> Impulse {
+        let mut impulse = Impulse { thrust: Vec2::zeros(), torque: flow[10], support: flow[11] };
+        if self.on_carriage() {
+            let h = node.matrix.of_base(self.base_velocity(flow, Turn::NONE, node)) + node.arm;
+            impulse.thrust = vec2(0.0, h.linear.y - flow[4]);
+            impulse.torque = h.angular - flow[5];
+            (state.momentum.y, state.momentum.z) = (h.linear.y, h.angular);
+        } else {
+            // What the momentum has gained, and no other force gave.
+            let mut room = Load::NONE;
+            let load = loads.present(0.5 * size, &mut room);
+            let others = load.base_force + load.tip_force + vec2(0.0, -node.matrix.mass * self.vehicle.gravity);
+            impulse.thrust = (state.momentum - before).xy() - others * size - vec2(0.0, impulse.support);
+        }
+        impulse
+    }
+
     /// Writes pose, momentum, integrals and velocities into `state`.
-    fn settle(&self, state: &mut State<N>, flow: &Flow, node: &Node<N>) {
+    pub(super) fn settle(&self, state: &mut State<N>, flow: &Flow, node: &Node<N>) {
         let turn = self.arm_turn(flow);
         state.pose = Vector3::new(flow[0], flow[1], flow[2]);
         state.momentum = Vector3::new(flow[3], flow[4], flow[5]);
@@ -162,6 +178,16 @@ impl<const N: usize> Dynamics<N> {
         instant(state.samples, interval) - t
     }
 
+    /// Fastest turning at the rates `rate`, relative to the UAV \[rad/s\].
+    pub(super) fn turning(&self, rate: &SVector<f64, N>) -> f64 {
+        let arm = rate.iter().take(self.vehicle.links).map(|rate| rate.abs()).sum::<f64>();
+        match self.vehicle.balancer {
+            // Nobody sees a disc turn.
+            Some(Balancer::Element(body)) if body.first != 0.0 => arm.max(rate[N - 1].abs()),
+            _ => arm,
+        }
+    }
+
     /// The longest internal step that resolves autopilot, support and the turning of the links.
     fn longest_internal_step(
         &self,
@@ -172,15 +198,8 @@ impl<const N: usize> Dynamics<N> {
         size: f64,
     ) -> f64 {
         let vehicle = &self.vehicle;
-        let turning = |rate: SVector<f64, N>| {
-            let arm = rate.iter().take(vehicle.links).map(|rate| rate.abs()).sum::<f64>();
-            match vehicle.balancer {
-                // Nobody sees a disc turn.
-                Some(Balancer::Element(body)) if body.first != 0.0 => arm.max(rate[N - 1].abs()),
-                _ => arm,
-            }
-        };
-        let turning = turning(motion.rate).max(turning(motion.rate_after(size))) + TUMBLING * roll_rate.abs();
+        let turning =
+            self.turning(&motion.rate).max(self.turning(&motion.rate_after(size))) + TUMBLING * roll_rate.abs();
         let longest = LONGEST.min(RESOLUTION / turning.max(self.control_rate));
         if !contact {
             return longest;

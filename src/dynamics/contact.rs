@@ -8,7 +8,7 @@ use super::runge_kutta::Internal;
 use super::{Dynamics, in_inertial_frame};
 
 /// Gaps below this are zero \[m\]: their force is rounding.
-const NO_GAP: f64 = 1e-13;
+pub(super) const NO_GAP: f64 = 1e-13;
 
 /// Iterations that find a switching instant; the bracket shrinks superlinearly.
 const ITERATIONS: usize = 60;
@@ -66,51 +66,56 @@ impl<const N: usize> Dynamics<N> {
         size: f64,
         scene: &Scene<'_, N>,
     ) -> f64 {
-        let margin_after = |length: f64| {
+        switching_instant(self.margin(flow, node, scene), size, &|length| {
             let step = self.internal_step(flow, k_1, node, length, scene);
             self.margin(&step.flow, &step.node, scene)
-        };
-        let (mut low, mut high) = ((0.0, self.margin(flow, node, scene)), (size, margin_after(size)));
-        // Right after switching the margin is rounding: what is wanted is the way back, not the way here.
-        while low.1 <= NO_GAP && high.0 > f64::EPSILON * size {
-            let length = 0.5 * high.0;
-            let value = margin_after(length);
-            if value > NO_GAP {
-                low = (length, value);
-            } else {
-                high = (length, value);
-            }
-        }
-        // Regula falsi with halving of the stale end's value (Illinois).
-        let mut side = 0;
-        for _ in 0..ITERATIONS {
-            let length = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
-            let value = margin_after(length);
-            if value.abs() <= NO_GAP || high.0 - low.0 <= f64::EPSILON * size {
-                return length;
-            }
-            if value > 0.0 {
-                low = (length, value);
-                high.1 *= if side == 1 { 0.5 } else { 1.0 };
-                side = 1;
-            } else {
-                high = (length, value);
-                low.1 *= if side == -1 { 0.5 } else { 1.0 };
-                side = -1;
-            }
-        }
-        high.0
+        })
     }
 
     /// Distance \[m\] from switching: positive while the present state of contact lasts.
-    fn margin(&self, flow: &Flow, node: &Node<N>, scene: &Scene<'_, N>) -> f64 {
+    pub(super) fn margin(&self, flow: &Flow, node: &Node<N>, scene: &Scene<'_, N>) -> f64 {
         scene.side() * self.gap(flow, self.arm_turn(flow), node)
     }
 }
 
+/// The instant within an internal step of length `size` at which the margin, `begin` at its beginning, is zero.
+#[cold]
+pub(super) fn switching_instant(begin: f64, size: f64, margin_after: &dyn Fn(f64) -> f64) -> f64 {
+    let (mut low, mut high) = ((0.0, begin), (size, margin_after(size)));
+    // Right after switching the margin is rounding: what is wanted is the way back, not the way here.
+    while low.1 <= NO_GAP && high.0 > f64::EPSILON * size {
+        let length = 0.5 * high.0;
+        let value = margin_after(length);
+        if value > NO_GAP {
+            low = (length, value);
+        } else {
+            high = (length, value);
+        }
+    }
+    // Regula falsi with halving of the stale end's value (Illinois).
+    let mut side = 0;
+    for _ in 0..ITERATIONS {
+        let length = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
+        let value = margin_after(length);
+        if value.abs() <= NO_GAP || high.0 - low.0 <= f64::EPSILON * size {
+            return length;
+        }
+        if value > 0.0 {
+            low = (length, value);
+            high.1 *= if side == 1 { 0.5 } else { 1.0 };
+            side = 1;
+        } else {
+            high = (length, value);
+            low.1 *= if side == -1 { 0.5 } else { 1.0 };
+            side = -1;
+        }
+    }
+    high.0
+}
+
 /// Where the cubic with these values and slopes at both ends of an interval of length `size` falls below
 /// zero, if it does: its minimum.
-fn lowest([start, end]: [f64; 2], [down, up]: [f64; 2], size: f64) -> Option<f64> {
+pub(super) fn lowest([start, end]: [f64; 2], [down, up]: [f64; 2], size: f64) -> Option<f64> {
     if down >= 0.0 || up <= 0.0 {
         return None;
     }

@@ -30,7 +30,7 @@ pub struct Trend {
 }
 
 impl<const N: usize> Dynamics<N> {
-    fn scene(situation: &Situation<N>) -> Scene<'static, N> {
+    pub(super) fn scene(situation: &Situation<N>) -> Scene<'static, N> {
         let state = &situation.state;
         Scene {
             loads: &Loads::CALM,

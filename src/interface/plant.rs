@@ -45,7 +45,8 @@ impl Memory for PlantUnit {
 
 impl Model for PlantUnit {
     const IDENTIFIER: &'static str = "uam_plant";
-    const DESCRIPTION: &'static str = "Planar aerial manipulator: multicopter in hover with an arm of imposed joint rates, payload and elastic support";
+    const DESCRIPTION: &'static str =
+        "Planar aerial manipulator: multicopter in hover with an arm, payload and elastic support";
 
     const INTERFACE_VERSION: u32 = super::INTERFACE_VERSION;
 
@@ -61,6 +62,7 @@ impl Model for PlantUnit {
         let mut table = Table::default();
         declare_time(&mut table, |d: &mut Data, _| &mut d.time);
         parameters::declare_shared(&mut table, structure);
+        parameters::declare_plant(&mut table, structure);
         declare_inputs(&mut table, structure);
         declare_outputs(&mut table, structure);
         table.differentiate(derivatives::ALL);
@@ -119,7 +121,7 @@ fn declare_inputs(table: &mut Table<Data>, structure: Structure) {
                 format!("joint[{n}].rate_command"),
                 &unit::RADIAN_PER_SECOND,
                 Bounds::ANY,
-                format!("Rate of joint {n} from the beginning of the communication step"),
+                format!("Rate of joint {n} from the beginning of the communication step, if its motor follows a rate"),
                 |d, i| &mut d.inputs.rate_command[i],
             )
             .real(
@@ -128,6 +130,13 @@ fn declare_inputs(table: &mut Table<Data>, structure: Structure) {
                 Bounds::ANY,
                 format!("Slope of the rate of joint {n} within the communication step; 0: zero-order hold"),
                 |d, i| &mut d.inputs.acceleration_command[i],
+            )
+            .real(
+                format!("joint[{n}].torque_command"),
+                &unit::NEWTON_METRE,
+                Bounds::ANY,
+                format!("Torque of the motor of joint {n}, if that follows a torque"),
+                |d, i| &mut d.inputs.joint_torque_command[i],
             );
     }
     if let Some(Balancing { name, noun, units: [_, rate, acceleration, _], .. }) = Balancing::new(structure.balance) {

@@ -231,6 +231,18 @@ fn declare_autopilot<D: AsMut<Parameters>>(table: &mut Table<D>) {
         );
 }
 
+/// Declares the parameters that only the plant has.
+pub fn declare_plant<D: AsMut<Parameters>>(table: &mut Table<D>, structure: Structure) {
+    for i in 0..structure.links {
+        let n = i + 1;
+        table.fixed().at(i).choice(
+            format!("joint[{n}].actuation"),
+            format!("What the motor of joint {n} follows"),
+            |d, i| &mut d.as_mut().joints[i].actuation,
+        );
+    }
+}
+
 /// Declares the parameters that only the controller has.
 pub fn declare_controller<D: AsMut<Parameters>>(table: &mut Table<D>, structure: Structure) {
     table

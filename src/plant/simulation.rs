@@ -6,7 +6,7 @@ use super::means::Means;
 use super::{Inputs, Outputs, Rates, Simulation};
 use crate::autopilot::AutopilotMode;
 use crate::bytes::{Memory, Tape};
-use crate::dynamics::{Dynamics, Load, Loads, Motion, Situation, Trace};
+use crate::dynamics::{Driven, Dynamics, Load, Loads, Motion, Situation, Torques, Trace};
 use crate::error::Result;
 use crate::parameters::{BaseModel, Parameters, Structure};
 use crate::planar::{Vec2, vec2};
@@ -17,6 +17,8 @@ pub struct Plant<const N: usize> {
     dynamics: Dynamics<N>,
     situation: Situation<N>,
     means: Means<N>,
+    /// Joints driven by torques, if there are any.
+    driven: Option<Driven<N>>,
     /// Of the finished step.
     trace: Trace<N>,
 }
@@ -29,7 +31,8 @@ impl<const N: usize> Plant<N> {
     pub fn new(structure: Structure, parameters: &Parameters) -> Result<Self> {
         let dynamics = Dynamics::new(structure, parameters, BaseModel::Full)?;
         let situation = dynamics.start(parameters);
-        Ok(Self { dynamics, situation, means: Means::at_rest(), trace: Trace::at_rest() })
+        let driven = dynamics.driven(parameters, &situation)?;
+        Ok(Self { dynamics, situation, means: Means::at_rest(), driven, trace: Trace::at_rest() })
     }
 
     fn write_state(&self, outputs: &mut Outputs) {
@@ -83,21 +86,36 @@ impl<const N: usize> Simulation for Plant<N> {
             (true, false) => {
                 self.means.release(&self.dynamics.vehicle, &self.situation);
                 self.dynamics.release(&mut self.situation);
+                if let Some(driven) = &mut self.driven {
+                    self.dynamics.release_driven(&self.situation, driven);
+                }
             }
             _ => {}
         }
-        let motion = Motion {
+        let mut motion = Motion {
             rate: SVector::from_fn(|i, _| inputs.rate_command[i]),
             slope: SVector::from_fn(|i, _| inputs.rate_slope(i)),
         };
         let loads =
             Loads { begin: load(inputs), slope: inputs.slopes.as_ref().and_then(|slopes| slopes.load.as_ref()) };
         let account = self.means.account();
-        let impulse = self.dynamics.advance(&mut self.situation, &motion, &loads, t, size, account)?;
+        let (dynamics, situation, mut room) = (&self.dynamics, &mut self.situation, Load::NONE);
+        let impulse = if let Some(driven) = &mut self.driven {
+            let torques = Torques {
+                begin: SVector::from_fn(|i, _| inputs.joint_torque_command[i]),
+                slope: SVector::from_fn(|i, _| inputs.torque_slope(i)),
+            };
+            (motion.rate, motion.slope) = (driven.rest(&motion.rate), driven.rest(&motion.slope));
+            let impulse = dynamics.advance_driven(situation, driven, &motion, &torques, &loads, t, size, account)?;
+            let load = loads.present(size, &mut room);
+            motion.slope = dynamics.slope_at_end(situation, driven, &motion.slope, &torques, size, load);
+            impulse
+        } else {
+            dynamics.advance(situation, &motion, &loads, t, size, account)?
+        };
         self.situation.state.check(t + size)?;
 
         self.write_state(outputs);
-        let mut room = Load::NONE;
         let now = self.dynamics.at_end(&self.situation, &motion.slope, loads.present(size, &mut room));
         outputs.acceleration = now.acceleration;
         outputs.support_force = now.support;
@@ -141,9 +159,12 @@ impl<const N: usize> Simulation for Plant<N> {
 impl<const N: usize> Memory for Plant<N> {
     fn pass(&mut self, tape: &mut Tape<'_>) {
         // Without "..": whoever adds a field decides here whether it follows from the parameters.
-        let Self { dynamics: _, situation, means, trace } = self;
+        let Self { dynamics: _, situation, means, driven, trace } = self;
         situation.pass(tape);
         means.pass(tape);
+        if let Some(driven) = driven {
+            driven.pass(tape);
+        }
         trace.pass(tape);
     }
 }

@@ -55,6 +55,10 @@ impl Run {
         all
     }
 
+    pub fn rates(&self) -> plant::Rates {
+        self.simulation.rates()
+    }
+
     pub fn bodies(&self) -> Vec<Body> {
         self.model.observed(&self.outputs, self.outputs.attached)
     }

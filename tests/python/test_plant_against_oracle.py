@@ -77,6 +77,19 @@ def test_plant(structure: Structure, seed: int) -> None:
     assert not misses, "\n".join([case.name, *misses])
 
 
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("structure", STRUCTURES, ids=str)
+def test_plant_with_joints_driven_by_torques(structure: Structure, seed: int) -> None:
+    """Some joints have torques that change within the steps, some turn freely."""
+    seed += COMBINATIONS * (1000 * STRUCTURES.index(structure) + 500)
+    case = random_case(
+        seed, links=structure.links, balance=structure.balance, duration=0.6, driven=True
+    )
+    oracle = oracle_table(case)
+    misses = compare(case, fmu_table(build(structure).plant, case, list(oracle)), oracle)
+    assert not misses, "\n".join([case.name, *misses])
+
+
 @pytest.mark.parametrize("payload", PAYLOADS)
 @pytest.mark.parametrize("mode", MODES)
 def test_random_cases_are_worth_running(mode: str, payload: str) -> None:
@@ -85,7 +98,8 @@ def test_random_cases_are_worth_running(mode: str, payload: str) -> None:
     for seed in range(3):
         table = oracle_table(random_case(seed, mode=mode, payload=payload))
         assert all(np.all(np.isfinite(column)) for column in table.values())
-        assert np.max(np.abs(table["base.roll"])) < 20.0
+        # Without control, the thrust beside the system's centre of mass lets the vehicle tumble.
+        assert np.max(np.abs(table["base.roll"])) < (40.0 if mode == "external" else 20.0)
         assert np.max(np.abs(table["base.x"])) > 1e-4
         touching = table["support.force"] > 0
         switches += int(np.sum(touching[1:] != touching[:-1]))

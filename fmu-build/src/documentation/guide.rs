@@ -14,7 +14,8 @@ pub fn conventions() -> Markup {
             }
             li {
                 "The UAV's frame has its origin in the UAV's centre of mass; the UAV starts in the origin of the "
-                "inertial frame, at rest. The counterweight, if there is one, slides along the UAV's " i { "x" } " axis."
+                "inertial frame, at rest. A counterweight slides along the UAV's " i { "x" } " axis; a balance element "
+                "turns about the UAV's centre of mass and hangs below it where its angle is 0."
             }
             li { "Times in parameters count from the start of the simulation." }
             li {
@@ -67,7 +68,8 @@ pub fn plant() -> Markup {
     html! {
         h2 { "What it does" }
         p {
-            "A multicopter in a vertical plane carries an arm whose joint rates are imposed. Its states are the pose of "
+            "A multicopter in a vertical plane carries an arm. Each joint follows a rate, or a torque if "
+            code { "joint[i].actuation" } " says so: without torque it turns freely. The states are the pose of "
             "the UAV and the momentum of the whole system: rates may jump from one step to the next, the UAV's "
             "velocity then jumps with them, and momentum is conserved. The autopilot that keeps the hover is "
             "included. At the rising edge of " code { "grasp" } " the arm takes over the payload, at rest, from an "

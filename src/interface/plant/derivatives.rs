@@ -13,6 +13,7 @@ pub const ALL: &[(&str, Derivative<Data>)] = &[
     ("joint.rate_command", Given(|d, i, slope| *d.inputs.given_rate_slope(i) = Some(slope))),
     ("counterweight.rate_command", Given(|d, i, slope| *d.inputs.given_rate_slope(i) = Some(slope))),
     ("balance_element.rate_command", Given(|d, i, slope| *d.inputs.given_rate_slope(i) = Some(slope))),
+    ("joint.torque_command", Given(|d, i, slope| *d.inputs.given_torque_slope(i) = slope)),
     ("joint.acceleration_command", IGNORED),
     ("counterweight.acceleration_command", IGNORED),
     ("balance_element.acceleration_command", IGNORED),
