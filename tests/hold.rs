@@ -61,10 +61,7 @@ fn ramps_end_on_the_reference_with_its_velocity() {
     for resolution in RESOLUTIONS {
         let [constant, linear] =
             [Hold::ZeroOrder, Hold::FirstOrder].map(|hold| run(&pick_up(resolution, hold), 0.01, 30.0));
-        assert!(
-            linear.place < 5e-7 && linear.place < constant.place.max(1e-9),
-            "{resolution:?}: {constant:?}, {linear:?}"
-        );
+        assert!(linear.place < 5e-7 && linear.place <= constant.place, "{resolution:?}: {constant:?}, {linear:?}");
         assert!(linear.velocity < 1e-5 && constant.velocity > 1e-3, "{resolution:?}: {constant:?}, {linear:?}");
         assert!(linear.jump < 0.05 * constant.jump, "{resolution:?}: {constant:?}, {linear:?}");
         // What rings changes the more the shorter the steps are; a smooth curve, before the grasp, does not.
@@ -112,7 +109,8 @@ fn the_thesis_rates_may_be_interpolated() {
             run(&parameters, 1e-3, 3.0)
         });
         assert!(linear.place < 1.05 * constant.place, "{resolution:?}: {constant:?}, {linear:?}");
-        assert!(linear.jump < 1e-12, "{resolution:?}: {linear:?}");
+        // The first interval, planned before the steps of the host are known, has constant rates.
+        assert!(linear.jump < 1e-6, "{resolution:?}: {linear:?}");
     }
 }
 

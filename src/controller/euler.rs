@@ -72,7 +72,10 @@ impl<const N: usize> Controller<N> {
         let motion = match self.hold {
             Hold::ZeroOrder => Motion::constant(rate),
             // As the thesis handed its rates to the multibody program: linear in between.
-            Hold::FirstOrder => Motion { rate: self.motion.rate, slope: (rate - self.motion.rate) / horizon },
+            Hold::FirstOrder => {
+                let first = self.resolver.within_limits(self.motion.rate);
+                Motion { rate: first, slope: (rate - first) / horizon }
+            }
         };
         Plan {
             motion,

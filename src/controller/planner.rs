@@ -115,7 +115,10 @@ impl<const N: usize> Controller<N> {
         let here = Inputs { position: controller.origin, ..Inputs::default() };
         *outputs = Outputs::default();
         controller.grasp_in_time(0.0);
+        // How long the host's steps are is not known yet: a ramp might be held far beyond its end.
+        let hold = std::mem::replace(&mut controller.hold, Hold::ZeroOrder);
         controller.plan(0.0, &here, outputs)?;
+        controller.hold = hold;
         controller.write_prediction(0.0, &here, outputs);
         Ok(controller)
     }
