@@ -14,6 +14,9 @@ use crate::error::{Error, Result};
 
 /// Profile in the workspace's `Cargo.toml` for what goes into an FMU.
 const PROFILE: &str = "fmu";
+/// Less is copied into its callers than usual: a third of the usual threshold makes the controller's library 68 kB
+/// smaller, and its steps 3 % longer.
+const SMALL: &str = "-Cllvm-args=-inline-threshold=75";
 /// Separates the flags in `CARGO_ENCODED_RUSTFLAGS`.
 const FLAG_SEPARATOR: &str = "\u{1f}";
 
@@ -101,9 +104,13 @@ fn target_folder(workspace: &Path) -> PathBuf {
     usual.join("fmu")
 }
 
-/// The caller's compiler flags, and those that keep the building machine's paths out of the libraries.
+/// The caller's compiler flags, the one for small libraries, and those that keep the building machine's paths out of the libraries.
 fn flags(workspace: &Path) -> Result<OsString> {
     let mut flags = given_flags();
+    if !flags.is_empty() {
+        flags.push(FLAG_SEPARATOR);
+    }
+    flags.push(SMALL);
     // Where several prefixes fit, the last one counts: a cargo home inside the workspace keeps its own name.
     let prefixes = [
         (Some(workspace.to_owned()), "/uam"),
@@ -112,9 +119,7 @@ fn flags(workspace: &Path) -> Result<OsString> {
     ];
     for (prefix, name) in prefixes {
         let Some(prefix) = prefix else { continue };
-        if !flags.is_empty() {
-            flags.push(FLAG_SEPARATOR);
-        }
+        flags.push(FLAG_SEPARATOR);
         flags.push("--remap-path-prefix=");
         flags.push(prefix);
         flags.push("=");

@@ -107,8 +107,8 @@ fn a_unit_whose_file_was_changed_is_refused_with_both_identities() {
     let message = changed(lighter.start_file);
     assert!(message.contains(&lighter.guid) && message.contains(&unit.interface.guid), "{message}");
 
-    let message = changed(Some(text.replace("\"uav.mass\" = 4", "\"uav.mass\" = -4")));
-    assert!(message.contains("uav.mass must be a finite number, above 0, but is -4.3"), "{message}");
+    let message = changed(Some(text.replace("\"uav.mass\" = 0x4", "\"uav.mass\" = 0xc")));
+    assert!(message.contains("uav.mass must be the bits of a finite number, above 0, but is 0xc"), "{message}");
     let message = changed(None);
     assert!(message.contains("start.toml cannot be read") && message.contains(&unit.interface.guid), "{message}");
 }

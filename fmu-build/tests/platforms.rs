@@ -26,7 +26,7 @@ fn wanted(target: &Target) -> bool {
     }
     let missing = target.lacks(target_libraries);
     if !missing.is_empty() {
-        println!("skipped: {name}, there is no {}", missing.join("; "));
+        println!("skipped: {name}, for this is missing: {}", missing.join("; "));
     }
     missing.is_empty()
 }

@@ -69,6 +69,7 @@ impl<M: Model> Identity<M> {
 
     /// The variables by the names they have in this unit.
     #[must_use]
+    #[inline(never)]
     pub fn table(&self) -> Table<M::Data> {
         let mut table = M::table(self.structure);
         table.rename(|name| self.naming.of(name));
@@ -77,6 +78,7 @@ impl<M: Model> Identity<M> {
 
     /// The GUID.
     #[must_use]
+    #[inline(never)]
     pub fn guid(&self) -> Guid {
         let naming = self.naming.name();
         let mut text = format!("{} {} {} {naming}\n", M::IDENTIFIER, M::INTERFACE_VERSION, self.structure);

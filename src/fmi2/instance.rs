@@ -30,7 +30,6 @@ pub struct Instance<M: Model> {
 }
 
 /// All that influences the future of an instance; a saved FMU state is a copy of this.
-#[derive(Clone)]
 struct Situation<M: Model> {
     state: State,
     data: M::Data,
@@ -41,6 +40,22 @@ struct Situation<M: Model> {
     stop_time: Option<f64>,
     /// The present communication point.
     time: f64,
+}
+
+impl<M: Model> Clone for Situation<M> {
+    // One copy of it in the library: it is long, and needed in many places.
+    #[inline(never)]
+    fn clone(&self) -> Self {
+        let Self { state, data, model, start_time, stop_time, time } = self;
+        Self {
+            state: *state,
+            data: data.clone(),
+            model: model.clone(),
+            start_time: *start_time,
+            stop_time: *stop_time,
+            time: *time,
+        }
+    }
 }
 
 impl<M: Model> Situation<M> {

@@ -57,8 +57,8 @@ fn targets(arguments: &BuildArguments) -> Result<Vec<&'static Target>> {
         let missing = target.lacks(target_libraries).join("; ");
         match (missing.as_str(), arguments.all_platforms) {
             ("", _) => targets.push(target),
-            (missing, true) => println!("skipped: {}: there is no {missing}", target.platform.folder),
-            (missing, false) => bail!("{} cannot be built: there is no {missing}", target.platform.folder),
+            (missing, true) => println!("skipped: {}, for this is missing: {missing}", target.platform.folder),
+            (missing, false) => bail!("{} cannot be built, for this is missing: {missing}", target.platform.folder),
         }
     }
     Ok(targets)
