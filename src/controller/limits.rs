@@ -1,6 +1,7 @@
 //! How fast a coordinate may be in the coming interval: it must be able to stop in time.
 
-use crate::parameters::{Counterweight, Joint};
+use crate::parameters::{Counterweight, Joint, MAX_COORDINATES, Parameters};
+use crate::qp::{MAX_VARIABLES, Vector};
 
 /// Limits of one coordinate \[rad, m; s\].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,6 +52,7 @@ impl Limits {
     /// The rate for an interval of length `size` \[s\] from `position` that leads towards `target` without
     /// overshooting: as fast as the limits allow, and at the end exponentially with the time constant `time` \[s\].
     #[must_use]
+    #[inline(never)]
     pub fn approach(&self, target: f64, position: f64, before: f64, size: f64, time: f64) -> f64 {
         let distance = target.min(self.upper).max(self.lower) - position;
         let [least, most] = self.window(position, before, size);
@@ -70,6 +72,58 @@ impl Limits {
             // From here on one interval more or less is nothing.
             (2.0 * self.acceleration * distance).sqrt() * (1.0 - 1.0 / MANY)
         }
+    }
+}
+
+/// The limits of `links` joints and of what stands behind them: the same for each number of coordinates, so
+/// that the library holds one copy.
+#[must_use]
+#[inline(never)]
+pub fn all(parameters: &Parameters, links: usize) -> [Limits; MAX_COORDINATES] {
+    std::array::from_fn(|i| match parameters.joints.get(i) {
+        Some(joint) if i < links => Limits::from(joint),
+        _ => Limits::from(&parameters.counterweight),
+    })
+}
+
+/// What the limits allow in one interval.
+#[derive(Debug, Clone, Copy)]
+pub struct Allowed {
+    /// Length of the interval \[s\].
+    pub size: f64,
+    /// Smallest rates \[rad/s, m/s\].
+    pub least: Vector,
+    /// Largest rates \[rad/s, m/s\]; that of what balances the arm is the same as the smallest.
+    pub most: Vector,
+}
+
+impl Allowed {
+    /// No motion at all in an interval of length `size` \[s\].
+    #[must_use]
+    pub fn nothing(size: f64) -> Self {
+        Self { size, least: [0.0; MAX_VARIABLES], most: [0.0; MAX_VARIABLES] }
+    }
+
+    /// For coordinates with these `limits`, from `position` and after the rates `before`.
+    #[must_use]
+    #[inline(never)]
+    pub fn new(limits: &[Limits], position: &[f64], before: &[f64], size: f64) -> Self {
+        let mut allowed = Self::nothing(size);
+        for (i, (limits, (position, before))) in limits.iter().zip(position.iter().zip(before)).enumerate() {
+            [allowed.least[i], allowed.most[i]] = limits.window(*position, *before, size);
+        }
+        allowed
+    }
+
+    /// Coordinate `i` moves at `rate`.
+    pub fn fix(&mut self, i: usize, rate: f64) {
+        (self.least[i], self.most[i]) = (rate, rate);
+    }
+
+    /// Whether each of `rates` is allowed.
+    #[must_use]
+    pub fn admit(&self, rates: &[f64]) -> bool {
+        rates.iter().zip(self.least.iter().zip(&self.most)).all(|(rate, (least, most))| least <= rate && rate <= most)
     }
 }
 

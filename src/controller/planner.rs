@@ -5,8 +5,9 @@
 
 use nalgebra::SVector;
 
+use super::limits::Allowed;
 use super::prediction::Prediction;
-use super::resolution::{Allowed, Resolver};
+use super::resolution::Resolver;
 use super::response::Response;
 use super::{Inputs, Outputs, Planner, Rates, Status};
 use crate::autopilot::AutopilotMode;
@@ -233,7 +234,7 @@ impl<const N: usize> Controller<N> {
     }
 
     /// What the limits allow in an interval of length `horizon` that begins now.
-    pub(super) fn allowed(&self, horizon: f64) -> Allowed<N> {
+    pub(super) fn allowed(&self, horizon: f64) -> Allowed {
         self.resolver.allowed(&self.dynamics.vehicle, &self.now.situation, &self.motion.rate, horizon)
     }
 

@@ -16,9 +16,9 @@ pub use pseudo_inverse::{PATH_THRESHOLD, PseudoInverse, resolve};
 use weights::Weights;
 
 use super::Status;
-use super::limits::Limits;
+use super::limits::{self, Allowed, Limits};
 use crate::dynamics::Situation;
-use crate::parameters::{Parameters, Resolution};
+use crate::parameters::{MAX_COORDINATES, Parameters, Resolution};
 use crate::planar::Vec2;
 use crate::qp::{self, Places};
 use crate::vehicle::{Balancer, Vehicle};
@@ -44,20 +44,9 @@ pub(super) struct Problem<'a, const N: usize> {
     /// The rates that meet it exert no moment on the UAV in the mean: an impulse \[N m s\].
     pub moment: Task<N>,
     /// What the limits allow.
-    pub allowed: &'a Allowed<N>,
+    pub allowed: &'a Allowed,
     /// Which rates will probably be at their limits.
     pub guess: &'a Places,
-}
-
-/// What the limits allow in one interval.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Allowed<const N: usize> {
-    /// Length of the interval \[s\].
-    pub size: f64,
-    /// Smallest rates \[rad/s, m/s\].
-    pub least: SVector<f64, N>,
-    /// Largest rates \[rad/s, m/s\]; that of what balances the arm is the same as the smallest.
-    pub most: SVector<f64, N>,
 }
 
 /// Rates with how they came about.
@@ -87,7 +76,7 @@ pub(super) struct Resolver<const N: usize> {
     rate_penalty: f64,
     /// Time constant of the counterweight \[s\].
     balancing_time: f64,
-    limits: [Limits; N],
+    limits: [Limits; MAX_COORDINATES],
 }
 
 impl<const N: usize> Resolver<N> {
@@ -100,13 +89,7 @@ impl<const N: usize> Resolver<N> {
             gradient_gain: parameters.ik.gradient_gain,
             rate_penalty: parameters.ik.rate_penalty,
             balancing_time: parameters.counterweight.time_constant,
-            limits: std::array::from_fn(|i| {
-                if i < vehicle.links {
-                    Limits::from(&parameters.joints[i])
-                } else {
-                    Limits::from(&parameters.counterweight)
-                }
-            }),
+            limits: limits::all(parameters, vehicle.links),
         }
     }
 
@@ -127,18 +110,15 @@ impl<const N: usize> Resolver<N> {
 
     /// What the limits allow in an interval of length `size` \[s\] that starts in `now` after the rates `before`.
     /// What balances the arm goes by a law of its own; its rate is fixed.
-    pub fn allowed(&self, vehicle: &Vehicle<N>, now: &Situation<N>, before: &SVector<f64, N>, size: f64) -> Allowed<N> {
-        let mut allowed = Allowed { size, least: SVector::zeros(), most: SVector::zeros() };
+    pub fn allowed(&self, vehicle: &Vehicle<N>, now: &Situation<N>, before: &SVector<f64, N>, size: f64) -> Allowed {
         if self.kind != Resolution::LeastSquares {
-            return allowed;
+            return Allowed::nothing(size);
         }
-        let position = &now.state.position;
-        for i in 0..self.links {
-            [allowed.least[i], allowed.most[i]] = self.limits[i].window(position[i], before[i], size);
-        }
+        let (position, before) = (now.state.position.as_slice(), before.as_slice());
+        let mut allowed = Allowed::new(&self.limits[..self.links], position, before, size);
         if let Some(target) = counterweight::balance(vehicle, now) {
-            let rate = self.limits[N - 1].approach(target, position[N - 1], before[N - 1], size, self.balancing_time);
-            (allowed.least[N - 1], allowed.most[N - 1]) = (rate, rate);
+            let i = N - 1;
+            allowed.fix(i, self.limits[i].approach(target, position[i], before[i], size, self.balancing_time));
         }
         allowed
     }

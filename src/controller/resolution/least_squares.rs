@@ -12,8 +12,9 @@ use nalgebra::SVector;
 
 use super::{Problem, Resolved, Resolver};
 use crate::controller::Status;
+use crate::controller::limits::Allowed;
 use crate::planar::Vec2;
-use crate::qp::{self, Outcome, Place};
+use crate::qp::{self, MAX_VARIABLES, Outcome, Place};
 
 /// The ridge of the quadratic program, as a share of the squared moment per rate: it decides between rates
 /// that are equally good otherwise.
@@ -35,7 +36,6 @@ impl<const N: usize> Resolver<N> {
             moment.row[i] = 0.0;
         }
         let wanted = self.weights.resolve(&path, velocity, &SVector::zeros(), Some(&moment), self.reach);
-        let within = (0..self.links).all(|i| (allowed.least[i]..=allowed.most[i]).contains(&wanted.rate[i]));
         let mut resolved = Resolved {
             rate: rate + wanted.rate,
             status: wanted.status(),
@@ -43,26 +43,18 @@ impl<const N: usize> Resolver<N> {
             moment: moment.value - moment.row.dot(&wanted.rate),
             places: qp::FREE,
         };
-        if within && self.rate_penalty == 0.0 {
+        let links = self.links;
+        if self.rate_penalty == 0.0 && allowed.admit(&wanted.rate.as_slice()[..links]) {
             return resolved;
         }
 
         let mean = moment.row / allowed.size;
-        let smallest = f64::MIN_POSITIVE / RIDGE;
-        let mut program = qp::Problem::new(self.links, RIDGE * mean.norm_squared().max(smallest));
-        for (row, value) in path.row_iter().zip(&(path * wanted.rate)) {
-            program.equalities.push(SVector::from(row.transpose()).as_slice(), *value);
-        }
-        program.objective.push(mean.as_slice(), mean.dot(&wanted.rate));
-        for i in 0..self.links {
-            (program.lower[i], program.upper[i]) = (allowed.least[i], allowed.most[i]);
-            program.penalty[i] = self.rate_penalty;
-        }
+        let wanted_rate = &wanted.rate.as_slice()[..links];
+        let program = program(path.as_slice(), mean.as_slice(), wanted_rate, allowed, self.rate_penalty);
         let found = qp::solve(&program, problem.guess);
-
-        rate.as_mut_slice()[..self.links].copy_from_slice(&found.x[..self.links]);
+        rate.as_mut_slice()[..links].copy_from_slice(&found.x[..links]);
         resolved.moment = problem.moment.value - problem.moment.row.dot(&rate);
-        let held_back = found.places[..self.links].iter().any(|place| matches!(place, Place::Lower | Place::Upper));
+        let held_back = found.places[..links].iter().any(|place| matches!(place, Place::Lower | Place::Upper));
         if found.outcome != Outcome::Solved {
             resolved.status = Status::PathLimited;
         } else if held_back && resolved.moment.abs() > NO_MOMENT * allowed.size && !wanted.path_damped {
@@ -70,4 +62,25 @@ impl<const N: usize> Resolver<N> {
         }
         Resolved { rate, places: found.places, ..resolved }
     }
+}
+
+/// The quadratic program for the rates of the joints: on the `path`, column by column, and with the `mean` moment
+/// per rate as the `wanted` ones, as far as is `allowed`. The same for each number of coordinates, so that the
+/// library holds one copy.
+#[inline(never)]
+fn program(path: &[f64], mean: &[f64], wanted: &[f64], allowed: &Allowed, rate_penalty: f64) -> qp::Problem {
+    let at = |row: &[f64]| row.iter().zip(wanted).map(|(row, rate)| row * rate).sum();
+    let squared: f64 = mean.iter().map(|moment| moment * moment).sum();
+    let mut program = qp::Problem::new(wanted.len(), RIDGE * squared.max(f64::MIN_POSITIVE / RIDGE));
+    for axis in 0..2 {
+        let mut row = [0.0; MAX_VARIABLES];
+        row.iter_mut().zip(path.iter().skip(axis).step_by(2)).for_each(|(row, path)| *row = *path);
+        program.equalities.push(&row, at(&row));
+    }
+    program.objective.push(mean, at(mean));
+    for i in 0..wanted.len() {
+        (program.lower[i], program.upper[i]) = (allowed.least[i], allowed.most[i]);
+        program.penalty[i] = rate_penalty;
+    }
+    program
 }
