@@ -6,7 +6,7 @@ mod thesis;
 
 pub use quantity::{Numbers, Quantity, Shown};
 pub use table::{Cell, Row, Section, Table};
-pub use thesis::{BASE_MOTION, PICK_UP};
+use thesis::{BASE_MOTION, PICK_UP, REACH, REDUNDANCY, TWO_LINKS};
 
 /// How far the end effector may be from its reference before it counts as having left the workspace \[m\].
 pub const LOST: f64 = 0.01;
@@ -54,7 +54,7 @@ impl Claim {
 
 /// All claims, in the order of the thesis.
 pub fn all() -> impl Iterator<Item = &'static Claim> {
-    BASE_MOTION.iter().chain(PICK_UP)
+    [BASE_MOTION, REDUNDANCY, TWO_LINKS, PICK_UP, REACH].into_iter().flatten()
 }
 
 /// What the thesis says about a scenario.

@@ -16,6 +16,7 @@ Examples:
   fmu-build build --links 2                 FMUs of a vehicle with two links
   fmu-build build --scenario mine.toml      FMUs that start with the numbers of your own vehicle
   fmu-build thesis                          every statement of the thesis beside what comes out
+  fmu-build reach                           how far the arm reaches with a counterweight
   fmu-build list                            the simulations that `simulate` knows
   fmu-build simulate 4.3a                   one simulation, with its own report
   fmu-build simulate 4.3b --step 0.01 --stop 10 --discretization euler
@@ -58,6 +59,12 @@ pub enum Command {
     ///
     /// Each runs with both discretizations. Builds the FMUs that this needs.
     Thesis,
+    /// Find out how far the arm reaches, with the counterweight locked and moving
+    ///
+    /// Enlarges the motions of thesis 3.8 and, with payload, 4.4 by a centimetre at a time until the end effector
+    /// is more than a millimetre off its reference at any communication point, and then narrows this down to a
+    /// millimetre.
+    Reach,
     /// List the simulations that `simulate` knows, one per line
     List,
     /// Print a simulation as a TOML file, to be changed and given to `simulate`

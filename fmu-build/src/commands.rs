@@ -16,6 +16,7 @@ use crate::cli::{Arguments, Command};
 mod build;
 mod export;
 mod pick_up;
+mod reach;
 mod simulate;
 mod thesis;
 
@@ -27,6 +28,7 @@ pub fn execute(arguments: &Arguments) -> Result<()> {
         Some(Command::Build(arguments)) => build::execute(arguments, out),
         Some(Command::Simulate(simulation)) => simulate::execute(simulation, out),
         Some(Command::Thesis) => thesis::execute(out),
+        Some(Command::Reach) => reach::execute(out),
         Some(Command::List) => {
             for scenario in scenarios::catalogue()? {
                 println!("{:<24} {}", scenario.id, scenario.title);

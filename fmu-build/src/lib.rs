@@ -23,6 +23,7 @@ pub mod interface;
 pub mod metadata;
 pub mod package;
 pub mod platform;
+pub mod reach;
 pub mod record;
 pub mod report;
 pub mod run;

@@ -38,10 +38,14 @@ pub enum Quantity {
     TrackingError,
     /// The same along x only, either way.
     ErrorX,
+    /// The same in the first third of the run.
+    EarlyErrorX,
     /// The same at the end.
     FinalErrorX,
     /// The largest along y only, either way.
     ErrorY,
+    /// The same without the UAV's own way along y.
+    ErrorYWithoutBase,
     /// Largest difference between the mean velocities of end effector and reference over a step.
     VelocityError,
     /// Largest angle between where a joint ends and where it began.
@@ -50,7 +54,7 @@ pub enum Quantity {
     ThirdJoint,
     /// Largest rate commanded to a joint.
     Rate,
-    /// Largest way of the counterweight to the right.
+    /// Largest way of the counterweight to the right before it is leftmost.
     CounterweightRight,
     /// Position of the counterweight at its leftmost.
     CounterweightLeft,
@@ -88,7 +92,7 @@ enum Reading {
 
 impl Quantity {
     /// Every quantity, in the order of tables.
-    pub const ALL: [Self; 30] = [
+    pub const ALL: [Self; 32] = [
         Self::FarthestRight,
         Self::FarthestLeft,
         Self::WayX,
@@ -104,8 +108,10 @@ impl Quantity {
         Self::LateMoment,
         Self::TrackingError,
         Self::ErrorX,
+        Self::EarlyErrorX,
         Self::FinalErrorX,
         Self::ErrorY,
+        Self::ErrorYWithoutBase,
         Self::VelocityError,
         Self::JointsReturn,
         Self::ThirdJoint,
@@ -144,13 +150,15 @@ impl Quantity {
             Self::LateMoment => ("the same in the last tenth", Reading::NewtonMetres),
             Self::TrackingError => ("largest end-effector error", Reading::Metres),
             Self::ErrorX => ("largest end-effector error in x", Reading::Metres),
+            Self::EarlyErrorX => ("the same in the first third", Reading::Metres),
             Self::FinalErrorX => ("end-effector error in x at the end", Reading::Metres),
             Self::ErrorY => ("largest end-effector error in y", Reading::Metres),
+            Self::ErrorYWithoutBase => ("the same without the UAV's way in y", Reading::Metres),
             Self::VelocityError => ("largest error of the mean velocity over a step", Reading::MetresPerSecond),
             Self::JointsReturn => ("joints end beside where they began by", Reading::Degrees),
             Self::ThirdJoint => ("joint 3 at the end", Reading::Radians),
             Self::Rate => ("largest joint rate", Reading::RadiansPerSecond),
-            Self::CounterweightRight => ("counterweight farthest right", Reading::Millimetres),
+            Self::CounterweightRight => ("counterweight first to the right by", Reading::Millimetres),
             Self::CounterweightLeft => ("counterweight leftmost at", Reading::Millimetres),
             Self::FinalLoad => ("vertical force on the payload at the end", Reading::Newtons),
             Self::MissedX => ("prediction misses the UAV's x by", Reading::Metres),
@@ -196,8 +204,18 @@ impl Quantity {
             Self::LateMoment => peak_between(recording, "transmitted.moment", [0.9, 1.0]),
             Self::TrackingError => peak(recording.tracking_error().into_iter()),
             Self::ErrorX => apart("end_effector.x", "reference.x"),
+            Self::EarlyErrorX => {
+                let third = recording.len() / 3;
+                let pairs = recording.column("end_effector.x").iter().zip(recording.column("reference.x"));
+                peak(pairs.take(third).map(|(found, wanted)| (found - wanted).abs()))
+            }
             Self::FinalErrorX => (last("end_effector.x") - last("reference.x")).abs(),
             Self::ErrorY => apart("end_effector.y", "reference.y"),
+            Self::ErrorYWithoutBase => {
+                let rows = recording.column("end_effector.y").iter().zip(recording.column("reference.y"));
+                let rows = rows.zip(recording.column("base.y"));
+                peak(rows.map(|((found, wanted), base)| (found - wanted - base).abs()))
+            }
             Self::VelocityError => velocity_error(recording),
             Self::JointsReturn => peak(joints("].position").map(|name| match recording.column(name) {
                 [first, .., last] => (last - first).abs(),
@@ -205,7 +223,12 @@ impl Quantity {
             })),
             Self::ThirdJoint => last("joint[3].position"),
             Self::Rate => peak(joints("].rate_command").map(size)),
-            Self::CounterweightRight => largest("counterweight.position", 1.0),
+            Self::CounterweightRight => {
+                let position = recording.column("counterweight.position");
+                let leftmost =
+                    (0..position.len()).min_by(|&a, &b| position[a].total_cmp(&position[b])).unwrap_or_default();
+                peak(position.iter().take(leftmost + 1).copied())
+            }
             Self::CounterweightLeft => -largest("counterweight.position", -1.0),
             Self::FinalLoad => last("payload.force_y").abs(),
             Self::MissedX => apart("base.x", "predicted.base.x"),

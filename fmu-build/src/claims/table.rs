@@ -2,7 +2,12 @@
 
 use std::fmt;
 
+use comfy_table::ContentArrangement;
+
 use super::{Claim, Quantity};
+
+/// Characters per line.
+const WIDTH: u16 = 120;
 
 /// A measured number in words, and whether it agrees with the thesis.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -129,6 +134,8 @@ impl fmt::Display for Table {
         let thesis = |text: &str| (self.agreement().0 > 0).then(|| text.to_owned());
         let header = [String::new()].into_iter().chain(thesis("thesis")).chain(self.columns.iter().cloned());
         table.set_header(header);
+        // Titles and statements go on in the next line.
+        table.set_content_arrangement(ContentArrangement::Dynamic).set_width(WIDTH);
         for section in &self.sections {
             table.add_row([&section.title]);
             for row in &section.rows {
