@@ -7,7 +7,7 @@ use super::{Error, Scenario, reader};
 
 /// Name and text of the files; a file may be based on those before it.
 macro_rules! files {
-    ($($id:literal)+) => { &[$(($id, include_str!(concat!("../../scenarios/", $id, ".toml")))),+] };
+    ($($id:literal)+) => { &[$(($id, include_str!(concat!("thesis/", $id, ".toml")))),+] };
 }
 
 const FILES: &[(&str, &str)] = files!(

@@ -33,7 +33,7 @@ pub enum Error {
     #[error(transparent)]
     Parameters(#[from] crate::Error),
     /// A file of the catalogue.
-    #[error("scenarios/{file}.toml")]
+    #[error("src/scenarios/thesis/{file}.toml")]
     Catalogue {
         /// Name of the file.
         file: &'static str,
