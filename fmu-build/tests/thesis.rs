@@ -44,7 +44,20 @@ fn every_statement_of_the_thesis_holds_or_is_a_known_deviation() {
 
 /// Scenarios in which the controller predicts all that the plant does, far from singular configurations and
 /// limits.
-const EXACT: [&str; 6] = ["2.1a", "2.5a", "2.5b", "4.3a", "4.3b", "4.3c-extended-jacobian"];
+const EXACT: [&str; 12] = [
+    "2.1a",
+    "2.5a",
+    "2.5b",
+    "3.6a",
+    "3.6a-segment",
+    "3.6c",
+    "3.6c-segment",
+    "4.2a",
+    "4.2b",
+    "4.3a",
+    "4.3b",
+    "4.3c-extended-jacobian",
+];
 
 #[test]
 fn the_pick_up_is_as_the_thesis_says() {

@@ -15,7 +15,7 @@ const FILES: &[(&str, &str)] = files!(
     "3.1a-minimum-norm" "3.1a" "3.1a-doubled-gain" "3.1b"
     "3.2a" "3.2b" "3.2c" "3.2d" "3.2e" "3.3"
     "3.5a" "3.5b"
-    "3.6a" "3.6a-segment" "3.6c" "3.6c-segment"
+    "3.6a" "3.6a-segment" "3.6b" "3.6b-segment" "3.6c" "3.6c-segment"
     "3.7-extended-jacobian" "3.7" "3.8a" "3.8b"
     "4.2a" "4.2b" "4.3a" "4.3b" "4.3c-minimum-norm" "4.3c-extended-jacobian"
     "4.4a" "4.4b"

@@ -236,9 +236,8 @@ def main() -> None:
         except MissingError as reason:
             print(f"skipped: {host.name} ({reason})")
             continue
-        print(
-            f"{host.name:28}{host.package + ' ' + host.version():30}{host.stop:3.0f} s  {result}{first}"
-        )
+        package = f"{host.package} {host.version()}"
+        print(f"{host.name:28}{package:30}{host.stop:3.0f} s  {result}{first}")
 
 
 if __name__ == "__main__":

@@ -138,6 +138,9 @@ pub const REDUNDANCY: &[Claim] = &[
     claim("3.6a-segment", Quantity::Moment, "about 1e-4 N m", below(1e-4)),
     claim("3.6a-segment", Quantity::Roll, "about 1e-4 rad", below(1e-4)),
     claim("3.6a-segment", Quantity::WayX, "1 to 2 mm", [0.5 * MM, 2.5 * MM]),
+    // The first joint has no motor.
+    claim("3.6b", Quantity::TrackingError, "below 0.2 mm", [0.0, 0.2 * MM]),
+    claim("3.6b-segment", Quantity::TrackingError, "below 0.2 mm", [0.0, 0.2 * MM]),
     claim("3.6c", Quantity::TrackingError, "about 0.1 mm", below(0.1 * MM)),
     ratio("3.6c", Quantity::Moment, "3.6a", "ten times", order(10.0))
         .but(BOTH, "as small as with the arm in the middle: (3.26) covers any mount"),
