@@ -117,15 +117,18 @@ def random_levels(random: np.random.Generator, count: int, top: float) -> Array:
 def random_torques(
     random: np.random.Generator, count: int, n: int
 ) -> tuple[list[Array | None], list[Array | None]]:
-    """Torques, and their slopes, of one joint at least; some turn freely."""
+    """Torques, and their slopes, of one joint at least; some turn freely.
+
+    Motors are as strong as the part of the arm is long that they move.
+    """
     torques: list[Array | None] = []
     slopes: list[Array | None] = []
     always = int(random.integers(n))
     for i in range(n):
         driven = i == always or random.random() < 0.4
-        free = random.random() < 0.3
-        torques.append(random_levels(random, count, 0.0 if free else 0.3) if driven else None)
-        slopes.append(random_levels(random, count, 0.0 if free else 5.0) if driven else None)
+        strength = 0.0 if random.random() < 0.3 else 0.3 * (n - i) / n
+        torques.append(random_levels(random, count, strength) if driven else None)
+        slopes.append(random_levels(random, count, 15.0 * strength) if driven else None)
     return torques, slopes
 
 

@@ -80,10 +80,18 @@ def test_plant(structure: Structure, seed: int) -> None:
 @pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("structure", STRUCTURES, ids=str)
 def test_plant_with_joints_driven_by_torques(structure: Structure, seed: int) -> None:
-    """Some joints have torques that change within the steps, some turn freely."""
+    """Some joints have torques that change within the steps, some turn freely.
+
+    Long arms that whip about on free joints are chaotic: rounding grows tenfold in 0.1 s, and
+    after 0.6 s the reference differs by 1e-9 rad from itself at another tolerance.
+    """
     seed += COMBINATIONS * (1000 * STRUCTURES.index(structure) + 500)
     case = random_case(
-        seed, links=structure.links, balance=structure.balance, duration=0.6, driven=True
+        seed,
+        links=structure.links,
+        balance=structure.balance,
+        duration=0.6 if structure.links < 5 else 0.2,
+        driven=True,
     )
     oracle = oracle_table(case)
     misses = compare(case, fmu_table(build(structure).plant, case, list(oracle)), oracle)
