@@ -153,9 +153,13 @@ impl<const N: usize> Vehicle<N> {
     /// Mass of UAV, arm and what balances it, without the payload \[kg\].
     #[must_use]
     pub fn mass(&self) -> f64 {
-        self.uav_mass
-            + self.empty.iter().map(|body| body.mass).sum::<f64>()
-            + self.balancer.map_or(0.0, |balancer| balancer.mass())
+        self.uav_mass + self.carried_mass()
+    }
+
+    /// Mass of the arm and what balances it, without the payload \[kg\].
+    #[must_use]
+    pub fn carried_mass(&self) -> f64 {
+        self.empty.iter().map(|body| body.mass).sum::<f64>() + self.balancer.map_or(0.0, |balancer| balancer.mass())
     }
 
     /// Largest distance of a point of the stretched arm from the UAV's centre of mass \[m\].

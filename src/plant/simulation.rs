@@ -65,7 +65,7 @@ impl<const N: usize> Simulation for Plant<N> {
             AutopilotMode::External => Vec2::zeros(),
         };
         (outputs.thrust, outputs.torque) = (control.x, control.y);
-        outputs.transmitted_force = weight + vec2(0.0, vehicle.uav_mass * vehicle.gravity);
+        outputs.transmitted_force = vec2(0.0, -vehicle.carried_mass() * vehicle.gravity);
         outputs.transmitted_moment = moment;
         for (effort, outboard) in outputs.effort.iter_mut().zip(&node.matrix.outboard_first) {
             *effort = outboard.x * vehicle.gravity;
