@@ -62,9 +62,8 @@ pub fn build(options: &BuildOptions, progress: &dyn Fn(&str)) -> Result<Built> {
     let compiled: Vec<_> = options.toolchains.iter().map(compile).collect::<Result<_>>()?;
 
     let pack = |unit: &Unit| {
-        let read = |(platform, compiled): &(Platform, Compiled)| {
-            Ok((*platform, files::read(&compiled.library(unit.interface.identifier)?)?))
-        };
+        let read =
+            |(platform, compiled): &(Platform, Compiled)| Ok((*platform, compiled.library(unit.interface.identifier)?));
         let libraries = compiled.iter().map(read).collect::<Result<Vec<_>>>()?;
         fmu(unit, &libraries)?.to_bytes(&unit.interface.file_name())
     };

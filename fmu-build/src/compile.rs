@@ -9,8 +9,9 @@ use std::thread;
 
 use cargo_metadata::Message;
 
-use crate::cross::Toolchain;
+use crate::cross::{Target, Toolchain};
 use crate::error::{Error, Result};
+use crate::{files, universal};
 
 /// Profile in the workspace's `Cargo.toml` for what goes into an FMU.
 const PROFILE: &str = "fmu";
@@ -43,23 +44,32 @@ impl Compiled {
     /// The shared library of a package.
     ///
     /// # Errors
-    /// If there is none.
-    pub fn library(&self, package: &str) -> Result<PathBuf> {
+    /// If there is none, or it cannot be read.
+    pub fn library(&self, package: &str) -> Result<Vec<u8>> {
         let extension = self.toolchain.platform()?.extension;
-        let reported = Message::parse_stream(self.messages.as_slice())
+        let reported: Vec<PathBuf> = Message::parse_stream(self.messages.as_slice())
             .filter_map(std::result::Result::ok)
             .filter_map(|message| match message {
                 Message::CompilerArtifact(artifact) if artifact.target.name == package => Some(artifact.filenames),
                 _ => None,
             })
             .flatten()
-            .find(|file| file.extension() == Some(extension))
+            .filter(|file| file.extension() == Some(extension))
             .map(PathBuf::from)
-            .ok_or_else(|| Error::NoLibrary { package: package.to_owned(), extension })?;
-        Ok(match self.toolchain {
-            Toolchain::Own => reported,
-            Toolchain::Cross(target) => target.merged(&reported),
-        })
+            .collect();
+        let read = |processor: Option<&str>| {
+            let is_for = |file: &&PathBuf| processor.is_none_or(|triple| file.iter().any(|part| part == triple));
+            let file = reported.iter().find(is_for);
+            files::read(file.ok_or_else(|| Error::NoLibrary { package: package.to_owned(), extension })?)
+        };
+        match self.toolchain {
+            Toolchain::Own => read(None),
+            Toolchain::Cross(Target { triples: [triple], .. }) => read(Some(triple)),
+            Toolchain::Cross(Target { triples, .. }) => {
+                let libraries: Vec<_> = triples.iter().map(|triple| read(Some(triple))).collect::<Result<_>>()?;
+                universal::join(package, &libraries)
+            }
+        }
     }
 }
 
@@ -82,7 +92,7 @@ fn cargo(workspace: &Path, packages: &[&str], toolchain: Toolchain) -> Result<Co
         .stdout(Stdio::piped())
         .stderr(Stdio::piped());
     if let Toolchain::Cross(target) = toolchain {
-        command.arg("--target").arg(target.argument()).envs(target.environment());
+        command.args(target.arguments().iter().flat_map(|triple| ["--target", triple])).envs(target.environment());
     }
     Ok(command)
 }

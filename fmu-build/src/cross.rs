@@ -1,17 +1,16 @@
 //! Binaries for other machines than this one, and for older systems than this one has.
 
 use std::env;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
 use crate::platform::{AARCH64_LINUX, DARWIN64, LINUX64, Platform, WIN64};
 
-/// Oldest C library of Linux on which the binaries run: that of 2012, which is in every distribution since.
-const GLIBC: &str = "2.17";
+/// Oldest C library of Linux on which the binaries run, as suffix of a triple: that of 2012, which is in every
+/// distribution since.
+const GLIBC: &str = ".2.17";
 /// Oldest macOS: the first one for both processors.
 const MACOS: &str = "11.0";
-/// The name under which cargo-zigbuild knows macOS on both processors.
-const UNIVERSAL: &str = "universal2-apple-darwin";
 
 /// What compiles a unit's library.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -28,7 +27,7 @@ pub struct Target {
     /// The platform.
     pub platform: Platform,
     /// Rust's names of it, one for each processor.
-    triples: &'static [&'static str],
+    pub(crate) triples: &'static [&'static str],
     linker: Linker,
 }
 
@@ -84,25 +83,18 @@ impl Target {
         }
     }
 
-    /// What to hand over as `--target`.
-    pub(crate) fn argument(&self) -> String {
-        match self.triples {
-            [triple] if triple.ends_with("linux-gnu") => format!("{triple}.{GLIBC}"),
-            [triple] => (*triple).to_owned(),
-            _ => UNIVERSAL.to_owned(),
-        }
+    /// What to hand over as `--target`, once for each processor.
+    ///
+    /// cargo-zigbuild knows macOS on both processors as one target, but may then put the library of one package into
+    /// that of another; asked for each processor, it does not.
+    pub(crate) fn arguments(&self) -> Vec<String> {
+        let version = if self.linker == Linker::Zig && self.platform.extension == "so" { GLIBC } else { "" };
+        self.triples.iter().map(|triple| format!("{triple}{version}")).collect()
     }
 
     /// What must be in the environment.
     pub(crate) fn environment(&self) -> Option<(&'static str, &'static str)> {
         (self.platform == DARWIN64).then_some(("MACOSX_DEPLOYMENT_TARGET", MACOS))
-    }
-
-    /// Where the finished library is, if cargo reports this one: those for several processors are merged.
-    pub(crate) fn merged(&self, reported: &Path) -> PathBuf {
-        let merge =
-            |part: &std::ffi::OsStr| self.triples.len() > 1 && self.triples.iter().any(|triple| part == *triple);
-        reported.iter().map(|part| if merge(part) { UNIVERSAL.as_ref() } else { part }).collect()
     }
 }
 
@@ -139,19 +131,17 @@ mod tests {
 
     #[test]
     fn targets_are_named_as_the_tools_want_them() {
-        let arguments: Vec<_> = TARGETS.iter().map(Target::argument).collect();
+        let arguments: Vec<_> = TARGETS.iter().flat_map(Target::arguments).collect();
         assert_eq!(
             arguments,
             [
                 "x86_64-unknown-linux-gnu.2.17",
                 "x86_64-pc-windows-gnu",
-                "universal2-apple-darwin",
+                "x86_64-apple-darwin",
+                "aarch64-apple-darwin",
                 "aarch64-unknown-linux-gnu.2.17"
             ]
         );
-        let reported = Path::new("target/fmu/aarch64-apple-darwin/fmu/libuam_plant.dylib");
-        assert_eq!(TARGETS[2].merged(reported), Path::new("target/fmu/universal2-apple-darwin/fmu/libuam_plant.dylib"));
-        assert_eq!(TARGETS[0].merged(reported), reported);
     }
 
     #[test]

@@ -1,58 +1,50 @@
-//! `documentation/index.html`: what a unit is, how to connect it, and all its variables.
+//! `documentation/index.html`: what a unit is and computes, how to connect it, and all its variables.
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
-use uam::variables::{Bounds, Causality, Variability};
+use uam::fmi2::Naming;
 
-use crate::interface::{Enumeration, Interface, Value, Variable};
 use crate::metadata;
 use crate::units::Unit;
 
-pub mod guide;
+mod figure;
+mod markdown;
+mod tables;
+pub mod text;
 
 const STYLE: &str = include_str!("documentation/style.css");
-
-/// Headings of the tables of variables, in the order of the page.
-const GROUPS: [(Causality, &str); 4] = [
-    (Causality::Input, "Inputs"),
-    (Causality::Output, "Outputs"),
-    (Causality::Parameter, "Parameters"),
-    (Causality::Independent, "Independent variable"),
-];
 
 /// The page on a unit.
 #[must_use]
 pub fn page(unit: &Unit) -> String {
-    let interface = &unit.interface;
+    let chapters = markdown::chapters(&text::complete(unit.text, unit.structure));
+    let tables = tables::all(&unit.interface);
     let markup = html! {
         (DOCTYPE)
         html lang="en" {
             head {
                 meta charset="utf-8";
                 meta name="viewport" content="width=device-width, initial-scale=1";
-                title { (interface.identifier) }
+                meta name="color-scheme" content="light dark";
+                title { (unit.interface.identifier) }
                 style { (PreEscaped(STYLE)) }
             }
             body {
-                header {
-                    img src="../model.png" width="100" height="100" alt="";
-                    div {
-                        h1 { (interface.identifier) }
-                        p { (interface.description) "." }
+                (head(unit))
+                nav {
+                    @for chapter in &chapters { a href={ "#" (chapter.anchor()) } { (chapter.title) } }
+                    @for (heading, _) in &tables { a href={ "#" (heading) } { (heading) } }
+                }
+                main {
+                    @for (place, chapter) in chapters.iter().enumerate() {
+                        section {
+                            h2 id=(chapter.anchor()) { (chapter.title) }
+                            (chapter.content)
+                            @if place == 0 { (figure::vehicle(unit.structure)) }
+                        }
                     }
-                }
-                p {
-                    "FMI 2.0 for co-simulation; structure: " strong { (interface.structure) } "; version "
-                    (metadata::VERSION) ". The structure was chosen when the unit was built and fixes the variables "
-                    "below; all numbers are parameters."
-                }
-                (unit.guide)
-                (guide::conventions())
-                @for (causality, heading) in GROUPS {
-                    (group(interface, causality, heading))
-                }
-                h2 { "Enumerations" }
-                @for enumeration in interface.enumerations() {
-                    (alternatives(&enumeration))
+                    @for (heading, table) in &tables {
+                        section { h2 id=(heading) { (heading) } (table) }
+                    }
                 }
                 footer {
                     p { (metadata::COPYRIGHT) ". " (metadata::LICENSE) ": see the folder " code { "licenses" } "." }
@@ -63,91 +55,25 @@ pub fn page(unit: &Unit) -> String {
     markup.into_string()
 }
 
-fn group(interface: &Interface, causality: Causality, heading: &str) -> Markup {
-    let variables: Vec<&Variable> = interface.with(causality).map(|(_, variable)| variable).collect();
-    let tunable = variables.iter().any(|variable| variable.variability == Variability::Tunable);
-    let started = variables.iter().any(|variable| variable.is_set_from_outside());
+fn head(unit: &Unit) -> Markup {
+    let interface = &unit.interface;
     html! {
-        @if !variables.is_empty() {
-            h2 { (heading) }
-            @if tunable {
-                p { "Those marked " em { "tunable" } " may be changed between steps, the others before the first." }
-            }
-            table {
-                thead {
-                    tr {
-                        th { "Name" }
-                        th { "Unit" }
-                        @if started { th { "Start" } th { "Allowed" } }
-                        th { "Meaning" }
-                    }
-                }
-                tbody {
-                    @for variable in variables { (row(variable, started)) }
-                }
+        header {
+            img src="../model.png" width="100" height="100" alt="";
+            div {
+                h1 { (interface.identifier) }
+                p { (interface.description) "." }
             }
         }
-    }
-}
-
-fn row(variable: &Variable, started: bool) -> Markup {
-    html! {
-        tr {
-            td { code { (variable.name) } }
-            td { (unit_of(&variable.value)) }
-            @if started {
-                td.number { (start_of(&variable.value)) }
-                td { (allowed(&variable.value)) }
-            }
-            td {
-                (variable.description)
-                @if variable.variability == Variability::Tunable { " " em { "(tunable)" } }
-            }
-        }
-    }
-}
-
-fn unit_of(value: &Value) -> Markup {
-    match value {
-        Value::Real { unit, .. } => html! { (unit.name) },
-        Value::Boolean { .. } => html! { "Boolean" },
-        Value::Enumeration { options, .. } => html! { a href={ "#" (options.name) } { (options.name) } },
-    }
-}
-
-fn start_of(value: &Value) -> String {
-    match value {
-        Value::Real { start, .. } => start.to_string(),
-        Value::Boolean { start } => start.to_string(),
-        Value::Enumeration { options, start } => {
-            let index = usize::try_from(start - 1).unwrap_or_default();
-            options.items.get(index).map_or_else(String::new, |item| item.name.to_owned())
-        }
-    }
-}
-
-fn allowed(value: &Value) -> String {
-    let Value::Real { bounds, .. } = value else { return String::new() };
-    let Bounds { min, max, min_excluded } = *bounds;
-    let lower = min.map(|min| format!("{} {min}", if min_excluded { ">" } else { "≥" }));
-    let upper = max.map(|max| format!("≤ {max}"));
-    lower.into_iter().chain(upper).collect::<Vec<_>>().join(", ")
-}
-
-fn alternatives(enumeration: &Enumeration) -> Markup {
-    html! {
-        h3 id=(enumeration.name) { (enumeration.name) }
-        p { (enumeration.description) }
-        table {
-            thead { tr { th { "Value" } th { "Name" } th { "Meaning" } } }
-            tbody {
-                @for (number, item) in (1..).zip(enumeration.items) {
-                    tr {
-                        td.number { (number) }
-                        td { code { (item.name) } }
-                        td { (item.description) }
-                    }
-                }
+        dl {
+            dt { "Interface" } dd { "FMI 2.0 for co-simulation" }
+            dt { "Structure" } dd { (interface.structure) ", chosen when the unit was built; all numbers are parameters" }
+            dt { "Experiment" }
+            dd { (interface.experiment.stop_time) " s in steps of " (interface.experiment.step_size) " s, if nothing else is asked for" }
+            dt { "Version" } dd { (metadata::VERSION) ", " code { (interface.guid) } }
+            @if interface.naming == Naming::Flat {
+                dt { "Names" }
+                dd { "flat: what the text calls " code { "joint[1].rate_command" } " is " code { "joint_1_rate_command" } }
             }
         }
     }

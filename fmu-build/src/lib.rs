@@ -31,6 +31,7 @@ pub mod settings;
 pub mod ssp;
 pub mod study;
 pub mod units;
+mod universal;
 pub mod workspace;
 mod xml;
 

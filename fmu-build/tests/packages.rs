@@ -106,6 +106,26 @@ fn the_page_shows_every_variable_and_every_alternative() {
 }
 
 #[test]
+fn the_page_has_picture_and_formulas_and_needs_nothing_from_elsewhere() {
+    for structure in Structure::all() {
+        for unit in [Unit::plant(structure), Unit::controller(structure)] {
+            let page = text(&pack(&unit), "documentation/index.html");
+            assert!(page.contains("<svg") && page.matches("<math").count() > 30, "{structure}");
+            assert!(!page.contains("merror"), "a formula cannot be read");
+            for outside in ["http:", "https:", "@import", "url(\"", "<script", "<link"] {
+                assert!(!page.contains(outside), "{outside}");
+            }
+            let sources: Vec<_> = page.split(" src=\"").skip(1).map(|rest| rest.split('"').next().unwrap()).collect();
+            assert_eq!(sources, ["../model.png"]);
+            let anchors = page.split("href=\"#").skip(1).map(|rest| rest.split('"').next().unwrap());
+            for anchor in anchors {
+                assert!(page.contains(&format!("id=\"{anchor}\"")), "{anchor}");
+            }
+        }
+    }
+}
+
+#[test]
 fn packing_twice_gives_the_same_bytes() {
     for structure in Structure::all() {
         assert!(system(structure) == system(structure), "{structure}");

@@ -1,0 +1,74 @@
+//! What users should know of the units beside their variables: the texts of the folder `text`.
+
+use uam::Structure;
+use uam::parameters::Balance;
+
+/// The text on the controller.
+pub const CONTROLLER: &str = include_str!("text/controller.md");
+/// The text on the plant.
+pub const PLANT: &str = include_str!("text/plant.md");
+
+const CONVENTIONS: &str = include_str!("text/conventions.md");
+const COUNTERWEIGHT: &str = include_str!("text/counterweight.md");
+const COUNTERWEIGHT_LAW: &str = include_str!("text/counterweight_law.md");
+const ELEMENT: &str = include_str!("text/balance_element.md");
+
+/// Where the conventions go.
+const PLACE_OF_CONVENTIONS: &str = "<!-- conventions -->";
+/// Where the text goes that only some structures have.
+const PLACE_OF_BALANCE: &str = "<!-- balance -->";
+
+/// A unit's text with what both have in common, and with what belongs to its structure.
+#[must_use]
+pub fn complete(text: &str, structure: Structure) -> String {
+    let law = if text == CONTROLLER { COUNTERWEIGHT_LAW } else { "" };
+    let balance = match structure.balance {
+        Balance::None => String::new(),
+        Balance::Counterweight => format!("{COUNTERWEIGHT}\n{law}"),
+        Balance::Element => ELEMENT.to_owned(),
+    };
+    text.replace(PLACE_OF_CONVENTIONS, CONVENTIONS).replace(PLACE_OF_BALANCE, &balance)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashSet;
+
+    use pulldown_cmark::{Event, Parser};
+
+    use super::*;
+    use crate::units::Unit;
+
+    /// Every name that users can find in the units of a structure.
+    fn names(structure: Structure) -> HashSet<String> {
+        let units = [Unit::controller(structure), Unit::plant(structure)];
+        let mut names = HashSet::new();
+        for interface in units.map(|unit| unit.interface) {
+            names.insert(interface.identifier.to_owned());
+            let items = interface.enumerations().into_iter().flat_map(|enumeration| enumeration.items);
+            names.extend(items.map(|item| item.name.to_owned()));
+            names.extend(interface.variables.into_iter().map(|variable| variable.name));
+        }
+        names
+    }
+
+    #[test]
+    fn every_name_in_the_texts_is_there() {
+        let mut seen = 0;
+        for structure in Structure::all() {
+            let names = names(structure);
+            for text in [CONTROLLER, PLANT] {
+                let text = complete(text, structure);
+                assert!(!text.contains("<!--"), "{text}");
+                for event in Parser::new_ext(&text, pulldown_cmark::Options::ENABLE_TABLES) {
+                    if let Event::Code(name) = event {
+                        let first = name.replace("[i]", "[1]").replace("[j]", "[1]");
+                        assert!(names.contains(&first), "{structure}: `{name}`");
+                        seen += 1;
+                    }
+                }
+            }
+        }
+        assert!(seen > 1000);
+    }
+}
