@@ -30,7 +30,7 @@ pub use rates::{Rates, Trace};
 
 use crate::autopilot::{Autopilot, AutopilotMode, Gains};
 use crate::error::{Error, Result};
-use crate::kinematics::Configuration;
+use crate::kinematics::Posture;
 use crate::memory;
 use crate::momentum::Twist;
 use crate::parameters::{BaseModel, MomentModel, Parameters, Structure, Support};
@@ -242,7 +242,9 @@ pub struct Dynamics<const N: usize> {
     pub support: Support,
     /// Thrust that carries all but the payload \[N\].
     hover_thrust: f64,
-    /// Fastest rate at which the autopilot answers \[1/s\].
+    /// Whether the hover law is evaluated inside the integrator.
+    continuous: bool,
+    /// Upper estimate of the fastest rate at which a continuous autopilot answers \[1/s\].
     control_rate: f64,
 }
 
@@ -270,9 +272,10 @@ impl<const N: usize> Dynamics<N> {
             autopilot: parameters.autopilot.clone(),
             support: parameters.support.clone(),
             hover_thrust,
+            continuous: false,
             control_rate: 0.0,
         };
-        dynamics.control_rate = dynamics.fastest_control_rate();
+        dynamics.heed_autopilot();
         Ok(dynamics)
     }
 
@@ -280,14 +283,14 @@ impl<const N: usize> Dynamics<N> {
     pub fn tune(&mut self, autopilot: &Autopilot) {
         if (self.autopilot.altitude, self.autopilot.roll) != (autopilot.altitude, autopilot.roll) {
             (self.autopilot.altitude, self.autopilot.roll) = (autopilot.altitude, autopilot.roll);
-            self.control_rate = self.fastest_control_rate();
+            self.heed_autopilot();
         }
     }
 
     /// Changes the kind of hover control, before the start.
     pub fn set_mode(&mut self, mode: AutopilotMode) {
         self.autopilot.mode = mode;
-        self.control_rate = self.fastest_control_rate();
+        self.heed_autopilot();
     }
 
     /// At rest at the origin, with the coordinates at their start and without payload.
@@ -304,8 +307,8 @@ impl<const N: usize> Dynamics<N> {
     /// What follows from a state.
     #[must_use]
     pub fn situation(&self, state: State<N>) -> Situation<N> {
-        let configuration = Configuration::new(&self.vehicle, &state.position);
-        let node = Node::new(&self.vehicle, configuration, state.held, state.rate);
+        let posture = Posture::new(&self.vehicle, &state.position);
+        let node = Node::new(&self.vehicle, posture, state.held, state.rate);
         Situation { turn: self.base.turn(state.pose.z), node, state }
     }
 
@@ -328,22 +331,18 @@ impl<const N: usize> Dynamics<N> {
         self.base == BaseModel::Ideal
     }
 
-    /// Whether the hover law is evaluated inside the integrator.
-    fn continuous(&self) -> bool {
-        !self.on_carriage() && self.autopilot.mode == AutopilotMode::Pid && self.autopilot.sample_time == 0.0
-    }
-
-    /// Upper estimate of the fastest rate \[1/s\] at which a continuous autopilot answers.
-    fn fastest_control_rate(&self) -> f64 {
+    /// Works out what follows from the kind of hover control and its gains.
+    fn heed_autopilot(&mut self) {
         let closed_loop = |gains: &Gains, inertia: f64| {
             (gains.kd / inertia).max((gains.kp / inertia).sqrt()).max((gains.ki / inertia).cbrt())
         };
-        if self.continuous() {
-            closed_loop(&self.autopilot.altitude, self.vehicle.mass())
-                .max(closed_loop(&self.autopilot.roll, self.vehicle.uav_inertia))
+        let Autopilot { mode, altitude, roll, sample_time } = &self.autopilot;
+        self.continuous = !self.on_carriage() && *mode == AutopilotMode::Pid && *sample_time == 0.0;
+        self.control_rate = if self.continuous {
+            closed_loop(altitude, self.vehicle.mass()).max(closed_loop(roll, self.vehicle.uav_inertia))
         } else {
             0.0
-        }
+        };
     }
 }
 

@@ -1,53 +1,14 @@
 //! Forward kinematics of the arm in the UAV frame.
 //!
 //! Link i points along (sin, -cos) of its absolute angle, roll + q_1 + ... + q_i; here everything is
-//! expressed in the UAV frame, where it depends on the joint angles only.
+//! expressed in the UAV frame, where it depends on the joint angles only. A posture follows another by turning
+//! its directions by small angles, which takes no sines.
 
 use nalgebra::SVector;
 
 use crate::memory;
 use crate::planar::{Turn, Vec2, vec2};
 use crate::vehicle::{Balancer, Vehicle};
-
-/// A configuration of the arm in trigonometric form: cheap to advance by small angles.
-#[derive(Debug, Clone, Copy)]
-pub struct Configuration<const N: usize> {
-    /// Turn of each link, and of a balance element, relative to the UAV.
-    turn: [Turn; N],
-    /// Position of the counterweight along the UAV's x axis \[m\].
-    slide: f64,
-}
-
-memory!(Configuration<N> { turn, slide });
-
-impl<const N: usize> Configuration<N> {
-    /// The configuration with coordinates `q` \[rad, m\].
-    #[must_use]
-    pub fn new(vehicle: &Vehicle<N>, q: &SVector<f64, N>) -> Self {
-        Self { turn: [Turn::NONE; N], slide: 0.0 }.moved(vehicle, q, Turn::by)
-    }
-
-    /// The configuration after a small displacement `dq` \[rad, m\].
-    #[must_use]
-    pub fn displaced(&self, vehicle: &Vehicle<N>, dq: &SVector<f64, N>) -> Self {
-        self.moved(vehicle, dq, Turn::by_small)
-    }
-
-    fn moved(&self, vehicle: &Vehicle<N>, dq: &SVector<f64, N>, turn_by: impl Fn(f64) -> Turn) -> Self {
-        let mut moved = *self;
-        let mut angle = 0.0;
-        for i in 0..N {
-            angle += dq[i] * vehicle.revolute[i];
-            moved.turn[i] = self.turn[i].then(turn_by(angle));
-        }
-        match vehicle.balancer {
-            None => {}
-            Some(Balancer::Counterweight(_)) => moved.slide += dq[N - 1],
-            Some(Balancer::Element(_)) => moved.turn[N - 1] = self.turn[N - 1].then(turn_by(dq[N - 1])),
-        }
-        moved
-    }
-}
 
 /// Where everything is, in the UAV frame \[m\].
 #[derive(Debug, Clone, Copy)]
@@ -67,26 +28,54 @@ pub struct Posture<const N: usize> {
 memory!(Posture<N> { direction, joint, end_effector, payload, counterweight });
 
 impl<const N: usize> Posture<N> {
-    /// The posture in a configuration.
+    /// The posture with the coordinates `q` \[rad, m\].
     #[must_use]
-    pub fn new(vehicle: &Vehicle<N>, configuration: &Configuration<N>) -> Self {
-        let mut posture = Self {
-            direction: [Vec2::zeros(); N],
-            joint: [Vec2::zeros(); N],
+    pub fn new(vehicle: &Vehicle<N>, q: &SVector<f64, N>) -> Self {
+        let hanging = Self {
+            direction: [Turn::NONE.down(); N],
+            joint: [vehicle.mount; N],
             end_effector: vehicle.mount,
             payload: vehicle.mount,
             counterweight: match vehicle.balancer {
-                Some(Balancer::Counterweight(slider)) => vec2(configuration.slide, slider.height),
+                Some(Balancer::Counterweight(slider)) => vec2(0.0, slider.height),
                 Some(Balancer::Element(_)) | None => Vec2::zeros(),
             },
         };
-        for i in 0..N {
-            posture.direction[i] = configuration.turn[i].down();
-            posture.joint[i] = posture.end_effector;
-            posture.end_effector += posture.direction[i] * vehicle.length[i];
-        }
-        let last = vehicle.links - 1;
-        posture.payload = posture.joint[last] + posture.direction[last] * vehicle.payload_com;
+        let mut posture = hanging;
+        posture.follow_by(vehicle, &hanging, q, Turn::by);
         posture
+    }
+
+    /// Becomes the posture after a small displacement `dq` \[rad, m\] from the posture `from`.
+    #[inline]
+    pub fn follow(&mut self, vehicle: &Vehicle<N>, from: &Self, dq: &SVector<f64, N>) {
+        self.follow_by(vehicle, from, dq, Turn::by_small);
+    }
+
+    #[inline]
+    fn follow_by(
+        &mut self,
+        vehicle: &Vehicle<N>,
+        from: &Self,
+        dq: &SVector<f64, N>,
+        turn_by: impl Fn(f64) -> Turn,
+    ) {
+        let mut angle = 0.0;
+        let mut tip = vehicle.mount;
+        for i in 0..N {
+            angle += dq[i] * vehicle.revolute[i];
+            self.direction[i] = turn_by(angle).apply(from.direction[i]);
+            self.joint[i] = tip;
+            tip += self.direction[i] * vehicle.length[i];
+        }
+        self.end_effector = tip;
+        let last = vehicle.links - 1;
+        self.payload = self.joint[last] + self.direction[last] * vehicle.payload_com;
+        self.counterweight = from.counterweight;
+        match vehicle.balancer {
+            None => {}
+            Some(Balancer::Counterweight(_)) => self.counterweight.x += dq[N - 1],
+            Some(Balancer::Element(_)) => self.direction[N - 1] = turn_by(dq[N - 1]).apply(from.direction[N - 1]),
+        }
     }
 }

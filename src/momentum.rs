@@ -86,12 +86,30 @@ pub struct MomentumMatrix<const N: usize> {
 memory!(MomentumMatrix<N> { mass, first, columns, outboard_first, center, lightness, compliance, inertia });
 
 impl<const N: usize> MomentumMatrix<N> {
+    /// Nothing has been summed up yet.
+    const NOTHING: Self = Self {
+        mass: 0.0,
+        first: vec2(0.0, 0.0),
+        columns: [Twist::ZERO; N],
+        outboard_first: [vec2(0.0, 0.0); N],
+        center: vec2(0.0, 0.0),
+        lightness: 0.0,
+        compliance: 0.0,
+        inertia: 0.0,
+    };
+
     /// Sums up all masses, from the tip to the UAV.
     #[must_use]
     pub fn new(vehicle: &Vehicle<N>, posture: &Posture<N>, held: bool) -> Self {
+        let mut matrix = Self::NOTHING;
+        matrix.sum_up(vehicle, posture, held);
+        matrix
+    }
+
+    /// Becomes the matrices of another posture.
+    #[inline]
+    pub fn sum_up(&mut self, vehicle: &Vehicle<N>, posture: &Posture<N>, held: bool) {
         let bodies = vehicle.bodies(held);
-        let mut columns = [Twist::ZERO; N];
-        let mut outboard_first = [Vec2::zeros(); N];
         // Composite of all links from i outwards, about joint i.
         let (mut mass, mut first, mut inertia) = (0.0, Vec2::zeros(), 0.0);
         for i in (0..N).rev() {
@@ -99,8 +117,8 @@ impl<const N: usize> MomentumMatrix<N> {
             inertia += body.second + length * (2.0 * direction.dot(&first) + mass * length);
             first += direction * (body.first + mass * length);
             mass += body.mass;
-            outboard_first[i] = first;
-            columns[i] = Twist { linear: perp(first), angular: posture.joint[i].dot(&first) + inertia };
+            self.outboard_first[i] = first;
+            self.columns[i] = Twist { linear: perp(first), angular: posture.joint[i].dot(&first) + inertia };
         }
         inertia += vehicle.uav_inertia + vehicle.mount.dot(&(2.0 * first + mass * vehicle.mount));
         first += vehicle.mount * mass;
@@ -112,21 +130,23 @@ impl<const N: usize> MomentumMatrix<N> {
                 inertia += slider.inertia + slider.mass * place.norm_squared();
                 first += place * slider.mass;
                 mass += slider.mass;
-                columns[N - 1] = Twist { linear: vec2(slider.mass, 0.0), angular: -slider.mass * place.y };
+                self.columns[N - 1] = Twist { linear: vec2(slider.mass, 0.0), angular: -slider.mass * place.y };
             }
             Some(Balancer::Element(body)) => {
                 let own = posture.direction[N - 1] * body.first;
                 inertia += body.second;
                 first += own;
                 mass += body.mass;
-                outboard_first[N - 1] = own;
-                columns[N - 1] = Twist { linear: perp(own), angular: body.second };
+                self.outboard_first[N - 1] = own;
+                self.columns[N - 1] = Twist { linear: perp(own), angular: body.second };
             }
         }
-        let lightness = 1.0 / mass;
-        let center = first * lightness;
-        let compliance = 1.0 / (inertia - first.dot(&center));
-        Self { mass, first, columns, outboard_first, center, lightness, compliance, inertia }
+        self.mass = mass;
+        self.first = first;
+        self.lightness = 1.0 / mass;
+        self.center = first * self.lightness;
+        self.inertia = inertia;
+        self.compliance = 1.0 / (inertia - first.dot(&self.center));
     }
 
     /// H_m q_dot: momentum from the rates alone.
@@ -152,63 +172,101 @@ impl<const N: usize> MomentumMatrix<N> {
     }
 }
 
-/// What a coordinate moves: all that lies outboard of a joint, or what balances the arm.
-#[derive(Debug, Clone, Copy)]
-pub struct Outboard {
-    /// Its angular momentum about the joint \[N m s\], or momentum along the slide \[N s\].
-    pub momentum: f64,
-    /// How fast that changes, without any load, because joint or slide move \[N m, N\].
-    pub drift: f64,
+/// The motion of each link: velocity of its joint \[m/s\] and angular velocity \[rad/s\], in the axes of the UAV frame,
+/// with the base in motion `v` and the rates `rate`.
+#[inline]
+fn link_motions<const N: usize>(
+    vehicle: &Vehicle<N>,
+    posture: &Posture<N>,
+    v: Twist,
+    rate: &SVector<f64, N>,
+) -> [Twist; N] {
+    let mut motions = [Twist::ZERO; N];
+    let mut motion = Twist { linear: v.linear + perp(vehicle.mount) * v.angular, angular: v.angular };
+    for i in 0..N {
+        motion.angular += rate[i] * vehicle.revolute[i];
+        motions[i] = motion;
+        motion.linear += perp(posture.direction[i]) * (motion.angular * vehicle.length[i]);
+    }
+    motions
 }
 
-/// What each coordinate moves, with the base in motion `v` and the rates `rate`; absolute velocities.
+/// For each coordinate, the momentum of what it moves: of all that lies outboard of a joint, angular and about the
+/// joint \[N m s\]; of a counterweight, along its slide \[N s\]. Absolute velocities, with the base in motion `v`.
 #[must_use]
-pub fn outboard<const N: usize>(
+pub fn outboard_momentum<const N: usize>(
     vehicle: &Vehicle<N>,
     posture: &Posture<N>,
     held: bool,
     v: Twist,
     rate: &SVector<f64, N>,
-) -> [Outboard; N] {
+) -> SVector<f64, N> {
     let bodies = vehicle.bodies(held);
-    let mut joint_velocity = [Vec2::zeros(); N];
-    let mut own = [Twist::ZERO; N];
-    let mut omega = v.angular;
-    let mut velocity = v.linear + perp(vehicle.mount) * v.angular;
-    for i in 0..N {
-        omega += rate[i] * vehicle.revolute[i];
-        joint_velocity[i] = velocity;
-        own[i] = turning(&bodies[i], posture.direction[i], velocity, omega);
-        velocity += perp(posture.direction[i]) * (omega * vehicle.length[i]);
-    }
-    let mut outboard = [Outboard { momentum: 0.0, drift: 0.0 }; N];
+    let motions = link_motions(vehicle, posture, v, rate);
+    let mut momentum = SVector::zeros();
     let mut outer = Twist::ZERO;
     for i in (0..N).rev() {
+        let own = body_momentum(&bodies[i], posture.direction[i], motions[i]);
         let lever = posture.direction[i] * vehicle.length[i];
-        outer.angular += own[i].angular + cross(lever, outer.linear);
-        outer.linear += own[i].linear;
-        outboard[i] = Outboard { momentum: outer.angular, drift: -cross(joint_velocity[i], outer.linear) };
+        outer.angular += own.angular + cross(lever, outer.linear);
+        outer.linear += own.linear;
+        momentum[i] = outer.angular;
     }
     match vehicle.balancer {
         None => {}
         Some(Balancer::Counterweight(slider)) => {
-            let velocity = v.linear + perp(posture.counterweight) * v.angular + vec2(rate[N - 1], 0.0);
-            outboard[N - 1] =
-                Outboard { momentum: slider.mass * velocity.x, drift: slider.mass * v.angular * velocity.y };
+            momentum[N - 1] = slider.mass * slider_velocity(posture, v, rate[N - 1]).x;
         }
         Some(Balancer::Element(body)) => {
-            let own = turning(&body, posture.direction[N - 1], v.linear, v.angular + rate[N - 1]);
-            outboard[N - 1] = Outboard { momentum: own.angular, drift: -cross(v.linear, own.linear) };
+            let motion = Twist { angular: v.angular + rate[N - 1], ..v };
+            momentum[N - 1] = body_momentum(&body, posture.direction[N - 1], motion).angular;
         }
     }
-    outboard
+    momentum
 }
 
-/// Momentum, and angular momentum about its joint, of a body that turns by `omega` while its joint moves.
-fn turning(body: &Body, direction: Vec2, joint_velocity: Vec2, omega: f64) -> Twist {
+/// How fast those momenta change without any load, because joints and slide move \[N m, N\].
+#[inline]
+#[must_use]
+pub fn outboard_drift<const N: usize>(
+    vehicle: &Vehicle<N>,
+    posture: &Posture<N>,
+    held: bool,
+    v: Twist,
+    rate: &SVector<f64, N>,
+) -> SVector<f64, N> {
+    let bodies = vehicle.bodies(held);
+    let motions = link_motions(vehicle, posture, v, rate);
+    let mut drift = SVector::zeros();
+    let mut outer = Vec2::zeros();
+    for i in (0..N).rev() {
+        let Twist { linear: joint_velocity, angular } = motions[i];
+        outer += joint_velocity * bodies[i].mass + perp(posture.direction[i]) * (angular * bodies[i].first);
+        drift[i] = -cross(joint_velocity, outer);
+    }
+    match vehicle.balancer {
+        None => {}
+        Some(Balancer::Counterweight(slider)) => {
+            drift[N - 1] = slider.mass * v.angular * slider_velocity(posture, v, rate[N - 1]).y;
+        }
+        Some(Balancer::Element(body)) => {
+            let omega = v.angular + rate[N - 1];
+            drift[N - 1] = -cross(v.linear, v.linear * body.mass + perp(posture.direction[N - 1]) * (omega * body.first));
+        }
+    }
+    drift
+}
+
+/// Velocity of the counterweight; axes of the UAV frame.
+fn slider_velocity<const N: usize>(posture: &Posture<N>, v: Twist, rate: f64) -> Vec2 {
+    v.linear + perp(posture.counterweight) * v.angular + vec2(rate, 0.0)
+}
+
+/// Momentum, and angular momentum about its joint, of a body whose joint has the velocity `motion.linear`.
+fn body_momentum(body: &Body, direction: Vec2, motion: Twist) -> Twist {
     Twist {
-        linear: joint_velocity * body.mass + perp(direction) * (omega * body.first),
-        angular: cross(direction, joint_velocity) * body.first + omega * body.second,
+        linear: motion.linear * body.mass + perp(direction) * (motion.angular * body.first),
+        angular: cross(direction, motion.linear) * body.first + motion.angular * body.second,
     }
 }
 

@@ -1,12 +1,10 @@
 //! Integrals that not everybody wants, beside those that the laws of motion integrate anyway.
 
-use std::ops::{Add, Mul};
-
 use nalgebra::SVector;
 
-use super::law::{Flow, Node, Scene};
+use super::law::{Node, Scene};
 use super::runge_kutta::Internal;
-use super::{Dynamics, Load};
+use super::Dynamics;
 
 /// What to add up during a step, and where.
 pub enum Account<'a, const N: usize> {
@@ -21,46 +19,35 @@ pub enum Account<'a, const N: usize> {
 }
 
 impl<const N: usize> Dynamics<N> {
-    /// Adds what the internal `step` of length `size` from `flow` and `node` gave.
+    /// Adds what the internal `step` of length `size` from `node` gave.
+    ///
+    /// By Simpson's rule from what the stages of the step saw, those in the middle taken together: of order 4 like
+    /// the step itself.
+    #[inline]
     pub(super) fn enter(
         &self,
         account: &mut Account<'_, N>,
-        flow: &Flow,
         node: &Node<N>,
         step: &Internal<N>,
         size: f64,
         scene: &Scene<'_, N>,
     ) {
+        let mut room = None;
+        let loads = scene.loads.at([scene.elapsed, size], &mut room);
+        let weights = [size / 6.0, size * (2.0 / 3.0), size / 6.0];
+        let instants = [node, &step.middle, &step.end].into_iter().zip(&step.carrier).zip(loads).zip(weights);
         match account {
             Account::Outboard(sum) => {
-                **sum +=
-                    simpson(flow, node, step, size, scene, |y, node, load| self.outboard_load(y, node, load, scene));
+                for (((node, carrier), load), weight) in instants {
+                    **sum += self.outboard_load(node, carrier, scene.held, load) * weight;
+                }
             }
             Account::Carried(sum) if !self.carried_load_is_a_balance() => {
-                **sum += simpson(flow, node, step, size, scene, |y, node, load| {
-                    let v = self.base_velocity(y, self.arm_turn(y), node);
-                    self.carried_load(y, node, v, load, scene)
-                });
+                for (((node, carrier), load), weight) in instants {
+                    **sum += self.carried_load(node, carrier, load) * weight;
+                }
             }
             Account::None | Account::Carried(_) => {}
         }
     }
-}
-
-/// The integral of `load` over an internal step by Simpson's rule, of the order of the step itself; the state in
-/// the middle comes from Hermite's cubic.
-fn simpson<const N: usize, L: Add<Output = L> + Mul<f64, Output = L>>(
-    flow: &Flow,
-    node: &Node<N>,
-    step: &Internal<N>,
-    size: f64,
-    scene: &Scene<'_, N>,
-    load: impl Fn(&Flow, &Node<N>, &Load) -> L,
-) -> L {
-    let mut room = None;
-    let [begin, middle, end] = scene.loads.at([scene.elapsed, size], &mut room);
-    let [k_1, k_4] = &step.slopes;
-    let halfway = (flow + step.flow) * 0.5 + (k_1 - k_4) * (0.125 * size);
-    (load(flow, node, begin) + load(&halfway, &step.middle, middle) * 4.0 + load(&step.flow, &step.node, end))
-        * (size / 6.0)
 }

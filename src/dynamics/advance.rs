@@ -4,10 +4,11 @@
 use nalgebra::{SVector, Vector3};
 
 use super::law::{Flow, Scene};
+use super::runge_kutta::Internal;
 use super::{Account, Dynamics, Impulse, Load, Loads, Motion, Node, Situation, State, in_inertial_frame};
 use crate::autopilot::AutopilotMode;
 use crate::error::{Error, Result};
-use crate::kinematics::Configuration;
+use crate::kinematics::Posture;
 use crate::planar::{Turn, Vec2, vec2};
 use crate::vehicle::Balancer;
 
@@ -59,6 +60,7 @@ impl<const N: usize> Dynamics<N> {
         let mut elapsed = 0.0;
         let mut stuck = false;
         let mut room = Load::NONE;
+        let mut step = Internal::none(flow, node);
         while elapsed < size {
             let left = size - elapsed;
             let scene = Scene {
@@ -79,20 +81,20 @@ impl<const N: usize> Dynamics<N> {
             let piece = if until_sample < left - SAME_INSTANT { until_sample } else { left };
             let length = if piece > longest { piece / (piece / longest).ceil() } else { piece };
             let mut covered = length;
-            let mut step = self.internal_step(&flow, k_1, node, length, &scene);
+            self.internal_step(&mut step, &flow, &k_1, node, length, &scene);
             // Right after switching, rounding must not switch back for ever.
             let within = if stuck { None } else { self.switches_within(&flow, node, length, &scene, &step) };
             if let Some(bracket) = within {
-                covered = self.switching_instant(&flow, k_1, node, bracket, &scene);
-                step = self.internal_step(&flow, k_1, node, covered, &scene);
+                covered = self.switching_instant(&flow, &k_1, node, bracket, &scene);
+                self.internal_step(&mut step, &flow, &k_1, node, covered, &scene);
                 state.contact = !state.contact;
             }
             stuck = covered == 0.0;
-            self.enter(&mut account, &flow, node, &step, covered, &scene);
+            self.enter(&mut account, node, &step, covered, &scene);
             // The last piece ends the step, whatever the sum of the pieces rounds to.
             elapsed = if length == left && within.is_none() { size } else { elapsed + covered };
             until_sample -= covered;
-            (flow, *node) = (step.flow, step.node);
+            (flow, *node) = (step.flow, step.end);
             if until_sample <= 0.0 && elapsed < size {
                 self.settle(state, &flow, node);
                 until_sample = self.sample(state, loads.present(elapsed, &mut room), t + elapsed);
@@ -101,8 +103,8 @@ impl<const N: usize> Dynamics<N> {
         }
         state.position = start + motion.way(size);
         if refreshed(t) != refreshed(t + size) {
-            let configuration = Configuration::new(&self.vehicle, &state.position);
-            *node = Node::new(&self.vehicle, configuration, state.held, motion.rate_after(size));
+            let posture = Posture::new(&self.vehicle, &state.position);
+            *node = Node::new(&self.vehicle, posture, state.held, motion.rate_after(size));
             [flow[8], flow[9]] = Turn::by(flow[2]).cos_sin();
         }
         *turn = self.arm_turn(&flow);

@@ -30,6 +30,7 @@ impl<const N: usize> Dynamics<N> {
 
     /// Length of an internal step, no longer than `size`, within which contact switches, or `None` if it
     /// lasts, or stays away, all through `whole`, the step of length `size`.
+    #[inline]
     pub(super) fn switches_within(
         &self,
         flow: &Flow,
@@ -41,7 +42,7 @@ impl<const N: usize> Dynamics<N> {
         if !scene.held || self.support.stiffness == 0.0 {
             return None;
         }
-        let end = self.margin(&whole.flow, &whole.node, scene);
+        let end = self.margin(&whole.flow, &whole.end, scene);
         if end < -NO_GAP {
             return Some(size);
         }
@@ -51,9 +52,8 @@ impl<const N: usize> Dynamics<N> {
             scene.side() * self.gap_rate(self.arm_turn(flow), node, &k.fixed_rows::<3>(0).into())
         };
         let [k_1, k_4] = &whole.slopes;
-        let dip = lowest([start, end], [rate(flow, k_1, node), rate(&whole.flow, k_4, &whole.node)], size)?;
-        let middle = self.internal_step(flow, *k_1, node, dip, scene);
-        (self.margin(&middle.flow, &middle.node, scene) < -NO_GAP).then_some(dip)
+        let dip = lowest([start, end], [rate(flow, k_1, node), rate(&whole.flow, k_4, &whole.end)], size)?;
+        (self.margin_after(dip, flow, k_1, node, scene) < -NO_GAP).then_some(dip)
     }
 
     /// The instant within an internal step of length `size` at which contact switches.
@@ -61,15 +61,23 @@ impl<const N: usize> Dynamics<N> {
     pub(super) fn switching_instant(
         &self,
         flow: &Flow,
-        k_1: Flow,
+        k_1: &Flow,
         node: &Node<N>,
         size: f64,
         scene: &Scene<'_, N>,
     ) -> f64 {
         switching_instant(self.margin(flow, node, scene), size, &|length| {
-            let step = self.internal_step(flow, k_1, node, length, scene);
-            self.margin(&step.flow, &step.node, scene)
+            self.margin_after(length, flow, k_1, node, scene)
         })
+    }
+
+    /// [`Dynamics::margin`] after an internal step of this `length`.
+    #[cold]
+    #[inline(never)]
+    fn margin_after(&self, length: f64, flow: &Flow, k_1: &Flow, node: &Node<N>, scene: &Scene<'_, N>) -> f64 {
+        let mut step = Internal::none(*flow, node);
+        self.internal_step(&mut step, flow, k_1, node, length, scene);
+        self.margin(&step.flow, &step.end, scene)
     }
 
     /// Distance \[m\] from switching: positive while the present state of contact lasts.

@@ -19,7 +19,7 @@ use nalgebra::{SMatrix, SVector};
 use super::{Dynamics, Load, Node, Situation};
 use crate::bytes::{Memory, Tape};
 use crate::error::{Error, Result};
-use crate::momentum::{Twist, inertial_load, inertial_moments, outboard};
+use crate::momentum::{Twist, inertial_load, inertial_moments, outboard_drift, outboard_momentum};
 use crate::parameters::{Actuation, Parameters};
 use crate::planar::{Vec2, cross, vec2};
 
@@ -107,8 +107,8 @@ impl<const N: usize> Dynamics<N> {
     /// The payload has just been let go in `situation`, with its own momentum.
     pub fn release_driven(&self, situation: &Situation<N>, driven: &mut Driven<N>) {
         let Situation { node, state, .. } = situation;
-        let all = outboard(&self.vehicle, &node.posture, state.held, situation.base(), &node.rate);
-        driven.momentum = driven.part(&SVector::from_fn(|i, _| all[i].momentum));
+        let all = outboard_momentum(&self.vehicle, &node.posture, state.held, situation.base(), &node.rate);
+        driven.momentum = driven.part(&all);
     }
 
     /// How the momenta about the driven joints answer to their rates while the base gives way \[kg m2\]; 1 for
@@ -184,11 +184,10 @@ impl<const N: usize> Dynamics<N> {
         let kept = inertial_load(vehicle, posture, state.held, roll_rate, &node.rate, imposed);
         let base = self.base_motion(node, force - kept, Twist::ZERO);
 
-        let outboard = outboard(vehicle, posture, state.held, situation.base(), &node.rate);
+        let drift = outboard_drift(vehicle, posture, state.held, situation.base(), &node.rate);
         let kept = inertial_moments(vehicle, posture, state.held, roll_rate, &node.rate, imposed);
-        let loads = self.outboard_load(&flow, node, load, &scene) + torques.after(size);
-        let share = SVector::from_fn(|i, _| loads[i] - outboard[i].drift - kept[i]);
-        imposed + self.driven_part(node, driven, &share, base)
+        let loads = self.outboard_load(node, &self.carrier(&flow, &rate), state.held, load) + torques.after(size);
+        imposed + self.driven_part(node, driven, &(loads - drift - kept), base)
     }
 }
 

@@ -76,7 +76,7 @@ impl<const N: usize> Dynamics<N> {
         Trend {
             momentum: Vector3::new(rate[3], rate[4], rate[5]),
             integrals: vec2(rate[6], rate[7]),
-            carried: self.carried_load(&flow, &situation.node, v, &loads.begin, &scene),
+            carried: self.carried_load(&situation.node, &self.carrier(&flow, &rate), &loads.begin),
         }
     }
 }

@@ -4,7 +4,7 @@ use nalgebra::{SVector, Vector3};
 
 use super::{Dynamics, Load, Loads, Motion, Situation, State, in_inertial_frame};
 use crate::autopilot::AutopilotMode;
-use crate::kinematics::{Configuration, Posture};
+use crate::kinematics::Posture;
 use crate::memory;
 use crate::momentum::{MomentumMatrix, Twist};
 use crate::parameters::BaseModel;
@@ -35,8 +35,6 @@ pub(super) fn turned(flow: &mut Flow, before: &Flow) {
 /// The arm at one instant, in the UAV frame.
 #[derive(Debug, Clone, Copy)]
 pub struct Node<const N: usize> {
-    /// Joint angles in trigonometric form.
-    pub configuration: Configuration<N>,
     /// Where everything is.
     pub posture: Posture<N>,
     /// H_b and H_m.
@@ -47,16 +45,32 @@ pub struct Node<const N: usize> {
     pub arm: Twist,
 }
 
-memory!(Node<N> { configuration, posture, matrix, rate, arm });
+memory!(Node<N> { posture, matrix, rate, arm });
 
 impl<const N: usize> Node<N> {
-    /// The arm in `configuration`, moving at `rate`.
+    /// The arm in `posture`, moving at `rate`.
     #[must_use]
-    pub fn new(vehicle: &Vehicle<N>, configuration: Configuration<N>, held: bool, rate: SVector<f64, N>) -> Self {
-        let posture = Posture::new(vehicle, &configuration);
+    pub fn new(vehicle: &Vehicle<N>, posture: Posture<N>, held: bool, rate: SVector<f64, N>) -> Self {
         let matrix = MomentumMatrix::new(vehicle, &posture, held);
         let arm = matrix.of_rates(&rate);
-        Self { configuration, posture, matrix, rate, arm }
+        Self { posture, matrix, rate, arm }
+    }
+
+    /// Becomes the arm after a small displacement `dq` from the node `from`, moving at `rate`.
+    ///
+    /// In place: returned by value, a node is copied as often as it is passed on, which takes longer than its sums.
+    #[inline]
+    pub fn follow(
+        &mut self,
+        vehicle: &Vehicle<N>,
+        from: &Self,
+        dq: &SVector<f64, N>,
+        held: bool,
+        rate: SVector<f64, N>,
+    ) {
+        self.posture.follow(vehicle, &from.posture, dq);
+        self.matrix.sum_up(vehicle, &self.posture, held);
+        self.move_at(rate);
     }
 
     /// The same arm, moving at `rate`.
@@ -72,6 +86,22 @@ impl<const N: usize> Node<N> {
             velocity + perp(place - self.posture.joint[i]) * (self.rate[i] * vehicle.revolute[i])
         })
     }
+}
+
+/// The UAV at one instant, as what it carries feels it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Carrier {
+    /// The turn of the arm's frame.
+    pub turn: Turn,
+    /// Its motion, in the axes of that frame.
+    pub motion: Twist,
+    /// Force of the support on the payload, upwards \[N\].
+    pub support: f64,
+}
+
+impl Carrier {
+    /// At rest.
+    pub const REST: Self = Self { turn: Turn::NONE, motion: Twist::ZERO, support: 0.0 };
 }
 
 /// What stays the same during an internal step.
@@ -138,7 +168,7 @@ impl<const N: usize> Dynamics<N> {
             return Vec2::zeros();
         }
         match self.autopilot.mode {
-            AutopilotMode::Pid if self.continuous() => {
+            AutopilotMode::Pid if self.continuous => {
                 self.hover_law(&Vector3::new(y[0], y[1], y[2]), velocity, vec2(y[6], y[7]), load)
             }
             AutopilotMode::Pid => scene.sampled,
@@ -171,12 +201,19 @@ impl<const N: usize> Dynamics<N> {
         let moment = control.y + load.base_torque + self.carried_moment(turn, node, load, support);
         let angular = moment - self.base.transport(velocity.xy(), vec2(y[3], y[4]), node.arm);
 
-        let error = if self.continuous() { vec2(y[1] - load.altitude, y[2] - load.roll) } else { Vec2::zeros() };
+        let error = if self.continuous { vec2(y[1] - load.altitude, y[2] - load.roll) } else { Vec2::zeros() };
         let turning = vec2(-y[9], y[8]) * velocity.z;
         Flow::from([
             velocity.x, velocity.y, velocity.z, force.x, force.y, angular, error.x, error.y, turning.x, turning.y,
             control.y, support,
         ])
+    }
+
+    /// The UAV with the flow `y` and its rates `k`, as [`Dynamics::law`] gives them.
+    #[inline]
+    pub(super) fn carrier(&self, y: &Flow, k: &Flow) -> Carrier {
+        let turn = self.arm_turn(y);
+        Carrier { turn, motion: Twist { linear: turn.undo(vec2(k[0], k[1])), angular: k[2] }, support: k[11] }
     }
 
     /// Moment of weight and outer loads on what the UAV carries, about the UAV's centre of mass \[N m\].

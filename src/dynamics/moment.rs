@@ -13,7 +13,7 @@
 //! | `sliding_base` | 3.3, (3.13)   | the horizontal velocity                         |
 //! | `free_base`    | 3.6, (3.23)   | all in which the arm takes part by the base model |
 
-use super::law::{Flow, Scene};
+use super::law::Carrier;
 use super::{Dynamics, Load, Node};
 use crate::momentum::Twist;
 use crate::parameters::{BaseModel, MomentModel};
@@ -40,12 +40,11 @@ impl<const N: usize> Dynamics<N> {
         node.matrix.of_base(v) - uav + arm
     }
 
-    /// The right-hand side of the law above without the moment on the UAV, where the base moves with `v` \[N m\].
-    pub(super) fn carried_load(&self, y: &Flow, node: &Node<N>, v: Twist, load: &Load, scene: &Scene<'_, N>) -> f64 {
-        let turn = self.arm_turn(y);
+    /// The right-hand side of the law above without the moment on the UAV \[N m\].
+    pub(super) fn carried_load(&self, node: &Node<N>, carrier: &Carrier, load: &Load) -> f64 {
+        let Carrier { turn, motion: v, support } = *carrier;
         let momentum = self.carried_momentum(node, turn, v, node.arm);
-        let moment = self.carried_moment(turn, node, load, self.support_force(y, turn, node, scene));
-        moment - cross(self.felt(v, turn).linear, momentum.linear)
+        self.carried_moment(turn, node, load, support) - cross(self.felt(v, turn).linear, momentum.linear)
     }
 
     /// Whether its integral follows from changes of momentum, because the UAV feels all that the arm does.

@@ -70,7 +70,7 @@ impl<const N: usize> Dynamics<N> {
         size: f64,
     ) -> Vec2 {
         match self.autopilot.mode {
-            AutopilotMode::Pid if self.continuous() => {
+            AutopilotMode::Pid if self.continuous => {
                 let (altitude, roll) = (&self.autopilot.altitude, &self.autopilot.roll);
                 let Load { altitude: wanted, roll: wanted_roll, .. } = loads.begin;
                 let (mut error, mut error_rate) =

@@ -5,7 +5,7 @@
 //! communication with a controller asks for, order 4 already leaves nothing but rounding.
 
 use super::Dynamics;
-use super::law::{Flow, Node, Scene, turned};
+use super::law::{Carrier, Flow, Node, Scene, turned};
 
 /// Result of an internal step.
 pub(super) struct Internal<const N: usize> {
@@ -14,42 +14,66 @@ pub(super) struct Internal<const N: usize> {
     /// The arm in the middle.
     pub middle: Node<N>,
     /// The arm at the end.
-    pub node: Node<N>,
+    pub end: Node<N>,
     /// Rates of the flow at the beginning and, as seen by the last stage, at the end.
     pub slopes: [Flow; 2],
+    /// The UAV at the beginning, in the middle and at the end, as the stages see it.
+    pub carrier: [Carrier; 3],
+}
+
+impl<const N: usize> Internal<N> {
+    /// No time has passed; `node`: the arm.
+    pub fn none(flow: Flow, node: &Node<N>) -> Self {
+        let (slopes, carrier) = ([Flow::zeros(); 2], [Carrier::REST; 3]);
+        Self { flow, middle: *node, end: *node, slopes, carrier }
+    }
 }
 
 impl<const N: usize> Dynamics<N> {
     /// One step of length `size` from `flow` with the rates `k_1`, where the arm is at `node`, under the motion of
-    /// `scene`.
+    /// `scene`; written to `step`.
     pub(super) fn internal_step(
         &self,
+        step: &mut Internal<N>,
         flow: &Flow,
-        k_1: Flow,
+        k_1: &Flow,
         node: &Node<N>,
         size: f64,
         scene: &Scene<'_, N>,
-    ) -> Internal<N> {
+    ) {
         let half = 0.5 * size;
-        let middle = self.node_after(node, half, scene);
-        let end = self.node_after(node, size, scene);
+        step.middle.follow(&self.vehicle, node, &scene.motion.way(half), scene.held, scene.motion.rate_after(half));
+        step.end.follow(&self.vehicle, node, &scene.motion.way(size), scene.held, scene.motion.rate_after(size));
+        let (middle, end) = (&step.middle, &step.end);
 
         let mut room = None;
         let [_, load_2, load_4] = scene.loads.at([scene.elapsed, size], &mut room);
 
-        let k_2 = self.law(&(flow + k_1 * half), &middle, load_2, scene);
-        let k_3 = self.law(&(flow + k_2 * half), &middle, load_2, scene);
-        let k_4 = self.law(&(flow + k_3 * size), &end, load_4, scene);
-        let mut after = flow + (k_1 + (k_2 + k_3) * 2.0 + k_4) * (size / 6.0);
-        turned(&mut after, flow);
-        Internal { flow: after, middle, node: end, slopes: [k_1, k_4] }
+        let y_2 = after(flow, k_1, half);
+        let k_2 = self.law(&y_2, middle, load_2, scene);
+        let y_3 = after(flow, &k_2, half);
+        let k_3 = self.law(&y_3, middle, load_2, scene);
+        let y_4 = after(flow, &k_3, size);
+        let k_4 = self.law(&y_4, end, load_4, scene);
+        let sixth = size / 6.0;
+        step.flow = Flow::from_fn(|i, _| flow[i] + (k_1[i] + (k_2[i] + k_3[i]) * 2.0 + k_4[i]) * sixth);
+        turned(&mut step.flow, flow);
+        step.carrier[0] = self.carrier(flow, k_1);
+        step.carrier[1] = self.carrier(&mean(&y_2, &y_3), &mean(&k_2, &k_3));
+        step.carrier[2] = self.carrier(&y_4, &k_4);
+        step.slopes = [*k_1, k_4];
     }
+}
 
-    /// The arm after the time `t` from `node` on.
-    fn node_after(&self, node: &Node<N>, t: f64, scene: &Scene<'_, N>) -> Node<N> {
-        let configuration = node.configuration.displaced(&self.vehicle, &scene.motion.way(t));
-        Node::new(&self.vehicle, configuration, scene.held, scene.motion.rate_after(t))
-    }
+/// Where `flow` is after the time `t` at the rates `k`.
+#[inline]
+fn after(flow: &Flow, k: &Flow, t: f64) -> Flow {
+    Flow::from_fn(|i, _| flow[i] + k[i] * t)
+}
+
+#[inline]
+fn mean(a: &Flow, b: &Flow) -> Flow {
+    Flow::from_fn(|i, _| 0.5 * (a[i] + b[i]))
 }
 
 #[cfg(test)]
@@ -72,6 +96,7 @@ mod tests {
             let size = 0.4 / f64::from(steps);
             let (mut flow, mut node) = (start.flow(BaseModel::Full), start.node);
             node.move_at(motion.rate);
+            let mut step = Internal::none(flow, &node);
             let scene = Scene {
                 loads: &loads,
                 elapsed: 0.0,
@@ -82,8 +107,8 @@ mod tests {
             };
             for _ in 0..steps {
                 let k_1 = dynamics.law(&flow, &node, &loads.begin, &scene);
-                let step = dynamics.internal_step(&flow, k_1, &node, size, &scene);
-                (flow, node) = (step.flow, step.node);
+                dynamics.internal_step(&mut step, &flow, &k_1, &node, size, &scene);
+                (flow, node) = (step.flow, step.end);
             }
             flow
         };

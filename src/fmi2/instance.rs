@@ -243,7 +243,7 @@ impl<M: Model> Instance<M> {
         }
         for (reference, value) in references.iter().zip(values) {
             let variable = lookup(self.table.variables(), *reference)?;
-            *value = T::read(variable, &mut self.now.data)?;
+            *value = T::read(variable, &mut self.now.data).ok_or_else(|| values::mismatch(variable, T::TYPES))?;
         }
         Ok(())
     }
@@ -255,13 +255,18 @@ impl<M: Model> Instance<M> {
     /// not admissible.
     pub fn set<T: Scalar>(&mut self, references: &[u32], values: &[T]) -> Result<(), Error> {
         self.permit(T::SET)?;
+        let (variables, state, data) = (self.table.variables(), self.now.state, &mut self.now.data);
         for (reference, value) in references.iter().zip(values) {
-            let variable = settable(self.table.variables(), *reference, self.now.state)?;
-            value.admit(variable, &mut self.now.data)?;
+            let variable = lookup(variables, *reference)?;
+            if !settable(variable, state) {
+                return Err(not_settable(variable));
+            }
+            if !value.fits(variable, data) {
+                return Err(value.refusal(variable, data));
+            }
         }
         for (reference, value) in references.iter().zip(values) {
-            let variable = lookup(self.table.variables(), *reference)?;
-            value.admit(variable, &mut self.now.data)?.assign(variable, &mut self.now.data);
+            value.assign(lookup(variables, *reference)?, data);
         }
         if self.now.state.precedes_simulation() && !references.is_empty() {
             self.now.model = None;
@@ -291,21 +296,30 @@ impl<M: Model> Instance<M> {
     }
 }
 
+#[inline]
 fn lookup<D>(variables: &[Variable<D>], reference: u32) -> Result<&Variable<D>, Error> {
     let found = usize::try_from(reference).ok().and_then(|position| variables.get(position));
-    found.ok_or(Error::UnknownReference { reference, count: variables.len() })
+    found.ok_or_else(|| Error::UnknownReference { reference, count: variables.len() })
 }
 
-/// The variable with this reference, if its causality and variability allow that it is set in `state`.
-fn settable<D>(variables: &[Variable<D>], reference: u32, state: State) -> Result<&Variable<D>, Error> {
-    let variable = lookup(variables, reference)?;
-    let name = || variable.name.clone();
-    let too_late = variable.variability == Variability::Fixed && !state.precedes_simulation();
+/// Whether causality and variability of a variable allow that it is set in `state`.
+#[inline]
+fn settable<D>(variable: &Variable<D>, state: State) -> bool {
     match variable.causality {
-        Causality::Output => Err(Error::ReadOnly { name: name(), role: "an output" }),
-        Causality::Independent => Err(Error::ReadOnly { name: name(), role: "the independent variable" }),
-        Causality::Parameter if too_late => Err(Error::Fixed { name: name() }),
-        Causality::Parameter | Causality::Input => Ok(variable),
+        Causality::Input => true,
+        Causality::Parameter => variable.variability != Variability::Fixed || state.precedes_simulation(),
+        Causality::Output | Causality::Independent => false,
+    }
+}
+
+/// Why it is not [`settable`].
+#[cold]
+fn not_settable<D>(variable: &Variable<D>) -> Error {
+    let name = variable.name.clone();
+    match variable.causality {
+        Causality::Output => Error::ReadOnly { name, role: "an output" },
+        Causality::Independent => Error::ReadOnly { name, role: "the independent variable" },
+        Causality::Parameter | Causality::Input => Error::Fixed { name },
     }
 }
 

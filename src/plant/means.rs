@@ -9,7 +9,7 @@ use nalgebra::{SVector, Vector3};
 use super::Outputs;
 use crate::dynamics::{Account, Dynamics, Impulse, Load, Situation};
 use crate::memory;
-use crate::momentum::outboard;
+use crate::momentum;
 use crate::planar::{Vec2, vec2};
 use crate::vehicle::Vehicle;
 
@@ -102,8 +102,7 @@ impl<const N: usize> Means<N> {
 /// Momentum of what each coordinate moves.
 fn outboard_momentum<const N: usize>(vehicle: &Vehicle<N>, situation: &Situation<N>, held: bool) -> SVector<f64, N> {
     let node = &situation.node;
-    let outboard = outboard(vehicle, &node.posture, held, situation.base(), &node.rate);
-    SVector::from_fn(|i, _| outboard[i].momentum)
+    momentum::outboard_momentum(vehicle, &node.posture, held, situation.base(), &node.rate)
 }
 
 fn payload_momentum<const N: usize>(vehicle: &Vehicle<N>, situation: &Situation<N>) -> Vec2 {

@@ -7,7 +7,7 @@ use crate::dynamics::contact::{NO_GAP, lowest, switching_instant};
 use crate::dynamics::law::Scene;
 use crate::dynamics::{Account, Dynamics, Impulse, Load, Loads, Motion, Node, Situation, in_inertial_frame};
 use crate::error::{Error, Result};
-use crate::kinematics::Configuration;
+use crate::kinematics::Posture;
 use crate::planar::{Turn, vec2};
 
 /// Longest internal step \[s\]: light links that start to swing are faster than their rates tell.
@@ -86,8 +86,8 @@ impl<const N: usize> Dynamics<N> {
             }
         }
         state.position = start + motion.way(size) + phase.way;
-        let configuration = Configuration::new(&self.vehicle, &state.position);
-        *node = Node::new(&self.vehicle, configuration, state.held, node.rate);
+        let posture = Posture::new(&self.vehicle, &state.position);
+        *node = Node::new(&self.vehicle, posture, state.held, node.rate);
         [phase.flow[8], phase.flow[9]] = Turn::by(phase.flow[2]).cos_sin();
         *turn = self.arm_turn(&phase.flow);
         self.settle(state, &phase.flow, node);

@@ -71,11 +71,11 @@ impl<const N: usize> Dynamics<N> {
     ) -> (Phase<N>, Node<N>) {
         let arm = |at: &Phase<N>, t: f64| {
             let way = scene.motion.way(t) + (at.way - phase.way);
-            let configuration = node.configuration.displaced(&self.vehicle, &way);
-            let mut node = Node::new(&self.vehicle, configuration, scene.held, scene.motion.rate_after(t));
+            let mut there = *node;
+            there.follow(&self.vehicle, node, &way, scene.held, scene.motion.rate_after(t));
             let momentum = driven.momentum + at.outboard + torques.impulse(scene.elapsed + t);
-            self.move_driven(&mut node, driven, self.momentum_in_uav(&at.flow), &momentum);
-            node
+            self.move_driven(&mut there, driven, self.momentum_in_uav(&at.flow), &momentum);
+            there
         };
         let mut room = Load::NONE;
         let mut rates = [Phase::new(Flow::zeros()); STAGES];
@@ -84,11 +84,9 @@ impl<const N: usize> Dynamics<N> {
             let at = phase.after(&rates[..stage], &STAGE[stage], size);
             let there = if stage == 0 { *node } else { arm(&at, t) };
             let load = scene.loads.present(scene.elapsed + t, &mut room);
-            rates[stage] = Phase {
-                flow: self.law(&at.flow, &there, load, scene),
-                way: driven.part(&there.rate),
-                outboard: self.outboard_load(&at.flow, &there, load, scene),
-            };
+            let flow = self.law(&at.flow, &there, load, scene);
+            let outboard = self.outboard_load(&there, &self.carrier(&at.flow, &flow), scene.held, load);
+            rates[stage] = Phase { flow, way: driven.part(&there.rate), outboard };
         }
         let mut end = phase.after(&rates, &STEP, size);
         turned(&mut end.flow, &phase.flow);

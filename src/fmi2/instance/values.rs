@@ -6,74 +6,75 @@
 use crate::fmi2::c_types::{Boolean, Integer, Real};
 use crate::fmi2::error::Error;
 use crate::fmi2::state::Call;
+use crate::options::{Choice, Item};
 use crate::variables::{Kind, Variable};
 
 /// A type in which hosts get and set variables.
+///
+/// What is refused is asked for its reason afterwards: this way the many calls that are in order make no room
+/// for an error.
 pub trait Scalar: Copy {
     /// The function that gets.
     const GET: Call;
     /// The function that sets.
     const SET: Call;
+    /// The types of variables that it gets and sets.
+    const TYPES: &'static str;
 
-    /// The value of a variable.
-    ///
-    /// # Errors
-    /// If the variable cannot be read as this type.
-    fn read<D>(variable: &Variable<D>, data: &mut D) -> Result<Self, Error>;
+    /// The value of a variable; `None` if the variable cannot be read as this type.
+    fn read<D>(variable: &Variable<D>, data: &mut D) -> Option<Self>;
 
-    /// What this value means for a variable. Changes nothing.
-    ///
-    /// # Errors
-    /// If the variable cannot be set by this type or not to this value.
-    fn admit<D>(self, variable: &Variable<D>, data: &mut D) -> Result<Admitted, Error>;
-}
+    /// Whether a variable can take this value.
+    fn fits<D>(self, variable: &Variable<D>, data: &mut D) -> bool;
 
-/// A value that a variable can take.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Admitted {
-    /// Inside the bounds of a real variable.
-    Real(f64),
-    /// For a Boolean variable.
-    Boolean(bool),
-    /// Number of an alternative of an enumeration.
-    Alternative(i32),
-}
+    /// Gives a variable that this value fits the value.
+    fn assign<D>(self, variable: &Variable<D>, data: &mut D);
 
-impl Admitted {
-    /// Gives the variable that admitted this value the value.
-    pub fn assign<D>(self, variable: &Variable<D>, data: &mut D) {
-        match (variable.kind, self) {
-            (Kind::Real { at, .. }, Self::Real(value)) => *at(data, variable.index) = value,
-            (Kind::Boolean { at }, Self::Boolean(value)) => *at(data, variable.index) = value,
-            (Kind::Enumeration { at }, Self::Alternative(number)) => {
-                at(data, variable.index).choose(number);
-            }
-            _ => {}
-        }
-    }
+    /// Why it does not fit.
+    fn refusal<D>(self, variable: &Variable<D>, data: &mut D) -> Error;
 }
 
 impl Scalar for Real {
     const GET: Call = Call::GetReal;
     const SET: Call = Call::SetReal;
+    const TYPES: &'static str = "Real";
 
-    fn read<D>(variable: &Variable<D>, data: &mut D) -> Result<Self, Error> {
-        Ok(match variable.kind {
+    #[inline]
+    fn read<D>(variable: &Variable<D>, data: &mut D) -> Option<Self> {
+        Some(match variable.kind {
             Kind::Real { at, .. } => *at(data, variable.index),
             Kind::Boolean { at } => f64::from(u8::from(*at(data, variable.index))),
             Kind::Enumeration { at } => f64::from(at(data, variable.index).number()),
         })
     }
 
-    fn admit<D>(self, variable: &Variable<D>, data: &mut D) -> Result<Admitted, Error> {
+    #[inline]
+    fn fits<D>(self, variable: &Variable<D>, data: &mut D) -> bool {
         match variable.kind {
-            Kind::Real { bounds, .. } if bounds.admit(self) => Ok(Admitted::Real(self)),
-            Kind::Real { bounds, .. } => {
-                Err(Error::OutOfBounds { name: variable.name.clone(), expected: bounds, found: self })
+            Kind::Real { bounds, .. } => bounds.admit(self),
+            Kind::Boolean { .. } => self == 0.0 || self == 1.0,
+            Kind::Enumeration { at } => alternative(self, at(data, variable.index).items()).is_some(),
+        }
+    }
+
+    #[inline]
+    fn assign<D>(self, variable: &Variable<D>, data: &mut D) {
+        match variable.kind {
+            Kind::Real { at, .. } => *at(data, variable.index) = self,
+            Kind::Boolean { at } => *at(data, variable.index) = self == 1.0,
+            Kind::Enumeration { at } => choose(at(data, variable.index), self),
+        }
+    }
+
+    #[cold]
+    fn refusal<D>(self, variable: &Variable<D>, data: &mut D) -> Error {
+        let name = variable.name.clone();
+        match variable.kind {
+            Kind::Real { bounds, .. } => Error::OutOfBounds { name, expected: bounds, found: self },
+            Kind::Boolean { .. } => Error::NotBoolean { name, found: self },
+            Kind::Enumeration { at } => {
+                Error::NotAnItem { name, items: at(data, variable.index).items(), found: self }
             }
-            Kind::Boolean { .. } if self == 0.0 || self == 1.0 => Ok(Admitted::Boolean(self == 1.0)),
-            Kind::Boolean { .. } => Err(Error::NotBoolean { name: variable.name.clone(), found: self }),
-            Kind::Enumeration { .. } => alternative(self, variable, data),
         }
     }
 }
@@ -81,18 +82,28 @@ impl Scalar for Real {
 impl Scalar for Integer {
     const GET: Call = Call::GetInteger;
     const SET: Call = Call::SetInteger;
+    const TYPES: &'static str = "Integer or Enumeration";
 
-    fn read<D>(variable: &Variable<D>, data: &mut D) -> Result<Self, Error> {
+    fn read<D>(variable: &Variable<D>, data: &mut D) -> Option<Self> {
         match variable.kind {
-            Kind::Enumeration { at } => Ok(at(data, variable.index).number()),
-            _ => Err(mismatch(variable, "Integer or Enumeration")),
+            Kind::Enumeration { at } => Some(at(data, variable.index).number()),
+            _ => None,
         }
     }
 
-    fn admit<D>(self, variable: &Variable<D>, data: &mut D) -> Result<Admitted, Error> {
+    fn fits<D>(self, variable: &Variable<D>, data: &mut D) -> bool {
+        matches!(variable.kind, Kind::Enumeration { .. }) && f64::from(self).fits(variable, data)
+    }
+
+    fn assign<D>(self, variable: &Variable<D>, data: &mut D) {
+        f64::from(self).assign(variable, data);
+    }
+
+    #[cold]
+    fn refusal<D>(self, variable: &Variable<D>, data: &mut D) -> Error {
         match variable.kind {
-            Kind::Enumeration { .. } => alternative(f64::from(self), variable, data),
-            _ => Err(mismatch(variable, "Integer or Enumeration")),
+            Kind::Enumeration { .. } => f64::from(self).refusal(variable, data),
+            _ => mismatch(variable, Self::TYPES),
         }
     }
 }
@@ -100,37 +111,44 @@ impl Scalar for Integer {
 impl Scalar for Boolean {
     const GET: Call = Call::GetBoolean;
     const SET: Call = Call::SetBoolean;
+    const TYPES: &'static str = "Boolean";
 
-    fn read<D>(variable: &Variable<D>, data: &mut D) -> Result<Self, Error> {
+    fn read<D>(variable: &Variable<D>, data: &mut D) -> Option<Self> {
         match variable.kind {
-            Kind::Boolean { at } => Ok((*at(data, variable.index)).into()),
-            _ => Err(mismatch(variable, "Boolean")),
+            Kind::Boolean { at } => Some((*at(data, variable.index)).into()),
+            _ => None,
         }
     }
 
-    fn admit<D>(self, variable: &Variable<D>, _data: &mut D) -> Result<Admitted, Error> {
-        match variable.kind {
-            Kind::Boolean { .. } => Ok(Admitted::Boolean(self.holds())),
-            _ => Err(mismatch(variable, "Boolean")),
+    fn fits<D>(self, variable: &Variable<D>, _data: &mut D) -> bool {
+        matches!(variable.kind, Kind::Boolean { .. })
+    }
+
+    fn assign<D>(self, variable: &Variable<D>, data: &mut D) {
+        if let Kind::Boolean { at } = variable.kind {
+            *at(data, variable.index) = self.holds();
         }
+    }
+
+    #[cold]
+    fn refusal<D>(self, variable: &Variable<D>, _data: &mut D) -> Error {
+        mismatch(variable, Self::TYPES)
     }
 }
 
-/// The alternative with this number, if `found` is one of an enumeration variable.
-fn alternative<D>(found: f64, variable: &Variable<D>, data: &mut D) -> Result<Admitted, Error> {
-    let Kind::Enumeration { at } = variable.kind else {
-        return Err(mismatch(variable, "Enumeration"));
-    };
-    let items = at(data, variable.index).items();
-    let mut numbers = (1_i32..).take(items.len());
-    numbers.find(|number| f64::from(*number) == found).map(Admitted::Alternative).ok_or_else(|| Error::NotAnItem {
-        name: variable.name.clone(),
-        items,
-        found,
-    })
+/// The alternative with this number, from 1.
+fn alternative(number: f64, items: &[Item]) -> Option<i32> {
+    (1_i32..).take(items.len()).find(|candidate| f64::from(*candidate) == number)
+}
+
+fn choose(choice: &mut dyn Choice, number: f64) {
+    if let Some(number) = alternative(number, choice.items()) {
+        choice.choose(number);
+    }
 }
 
 /// The error for a variable that cannot be reached by the `requested` type.
+#[cold]
 pub fn mismatch<D>(variable: &Variable<D>, requested: &'static str) -> Error {
     let found = match variable.kind {
         Kind::Real { .. } => "Real",
