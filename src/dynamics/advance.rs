@@ -19,8 +19,12 @@ const LONGEST: f64 = 1.05e-3;
 /// amplitude there.
 const RESOLUTION: f64 = 0.01;
 
-/// The same while the support pushes on the payload: every bounce adds up.
+/// The same while the system swings on the support with a speed of 1 m/s. There the error in metres counts, which adds
+/// up bounce by bounce; slower swinging stands longer steps, by the order 4 of the method.
 const SUPPORT_RESOLUTION: f64 = 0.005;
+
+/// However slow that is.
+const COARSEST_SUPPORT_RESOLUTION: f64 = 0.02;
 
 /// A base that tumbles drags everything along and adds up errors over its turns: it counts so much more.
 pub(super) const TUMBLING: f64 = 3.0;
@@ -72,7 +76,7 @@ impl<const N: usize> Dynamics<N> {
                 motion: motion.after(elapsed),
             };
             let k_1 = self.law(&flow, node, loads.present(elapsed, &mut room), &scene);
-            let longest = self.longest_internal_step(node, motion, k_1[2], state.contact, size);
+            let longest = self.longest_internal_step(&flow, &k_1, node, motion, state.contact, size);
             let most = MOST_STEPS * longest.min(sample_time);
             if left > most {
                 return Err(Error::StepTooLong { size, most });
@@ -193,15 +197,16 @@ impl<const N: usize> Dynamics<N> {
     /// The longest internal step that resolves autopilot, support and the turning of the links.
     fn longest_internal_step(
         &self,
+        flow: &Flow,
+        k_1: &Flow,
         node: &Node<N>,
         motion: &Motion<N>,
-        roll_rate: f64,
         contact: bool,
         size: f64,
     ) -> f64 {
         let vehicle = &self.vehicle;
         let turning =
-            self.turning(&motion.rate).max(self.turning(&motion.rate_after(size))) + TUMBLING * roll_rate.abs();
+            self.turning(&motion.rate).max(self.turning(&motion.rate_after(size))) + TUMBLING * k_1[2].abs();
         let longest = LONGEST.min(RESOLUTION / turning.max(self.control_rate));
         if !contact {
             return longest;
@@ -209,7 +214,11 @@ impl<const N: usize> Dynamics<N> {
         // The support feels the mass of the system and, at a lever, its inertia.
         let lever = node.posture.payload.x;
         let mobility = 1.0 / node.matrix.mass + lever * lever / vehicle.uav_inertia;
-        longest.min(SUPPORT_RESOLUTION / (self.support.stiffness * mobility).sqrt())
+        let swinging = (self.support.stiffness * mobility).sqrt();
+        let gap_rate = self.gap_rate(self.arm_turn(flow), node, &k_1.fixed_rows::<3>(0).into());
+        let speed = gap_rate.abs() + k_1[4].abs() / (node.matrix.mass * swinging);
+        let resolution = (SUPPORT_RESOLUTION / speed.sqrt().sqrt()).min(COARSEST_SUPPORT_RESOLUTION);
+        longest.min(resolution / swinging)
     }
 }
 
