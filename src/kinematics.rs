@@ -53,13 +53,7 @@ impl<const N: usize> Posture<N> {
     }
 
     #[inline]
-    fn follow_by(
-        &mut self,
-        vehicle: &Vehicle<N>,
-        from: &Self,
-        dq: &SVector<f64, N>,
-        turn_by: impl Fn(f64) -> Turn,
-    ) {
+    fn follow_by(&mut self, vehicle: &Vehicle<N>, from: &Self, dq: &SVector<f64, N>, turn_by: impl Fn(f64) -> Turn) {
         let mut angle = 0.0;
         let mut tip = vehicle.mount;
         for i in 0..N {

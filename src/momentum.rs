@@ -251,7 +251,8 @@ pub fn outboard_drift<const N: usize>(
         }
         Some(Balancer::Element(body)) => {
             let omega = v.angular + rate[N - 1];
-            drift[N - 1] = -cross(v.linear, v.linear * body.mass + perp(posture.direction[N - 1]) * (omega * body.first));
+            drift[N - 1] =
+                -cross(v.linear, v.linear * body.mass + perp(posture.direction[N - 1]) * (omega * body.first));
         }
     }
     drift

@@ -9,8 +9,8 @@ use common::{assert_close, cases};
 use nalgebra::{SVector, Vector2, Vector3};
 use proptest::prelude::*;
 use uam::for_coordinates;
-use uam::kinematics::{Configuration, Posture};
-use uam::momentum::{MomentumMatrix, Twist, inertial_load, outboard};
+use uam::kinematics::Posture;
+use uam::momentum::{MomentumMatrix, Twist, inertial_load, outboard_drift, outboard_momentum};
 use uam::planar::Turn;
 use uam::vehicle::Vehicle;
 use uam::{Parameters, Structure};
@@ -48,7 +48,7 @@ fn prepare<const N: usize>(
     at: &Coordinates,
 ) -> uam::Result<(Vehicle<N>, Posture<N>)> {
     let vehicle = Vehicle::<N>::new(structure, parameters)?;
-    let posture = Posture::new(&vehicle, &Configuration::new(&vehicle, &SVector::from_fn(|i, _| at.q[i])));
+    let posture = Posture::new(&vehicle, &SVector::from_fn(|i, _| at.q[i]));
     Ok((vehicle, posture))
 }
 
@@ -76,8 +76,9 @@ fn library_outboard(case: &Case) -> uam::Result<Vec<[f64; 2]>> {
     for_coordinates!(model.structure, N => {
         let (vehicle, posture) = prepare::<N>(model.structure, &model.parameters, at)?;
         let rate = SVector::<f64, N>::from_fn(|i, _| speed.q[i]);
-        let all = outboard(&vehicle, &posture, *held, base_twist(case), &rate);
-        Ok(all.iter().map(|outer| [outer.momentum, outer.drift]).collect())
+        let momentum = outboard_momentum(&vehicle, &posture, *held, base_twist(case), &rate);
+        let drift = outboard_drift(&vehicle, &posture, *held, base_twist(case), &rate);
+        Ok(momentum.iter().zip(drift.iter()).map(|(momentum, drift)| [*momentum, *drift]).collect())
     })
 }
 

@@ -2,9 +2,9 @@
 
 use nalgebra::SVector;
 
+use super::Dynamics;
 use super::law::{Node, Scene};
 use super::runge_kutta::Internal;
-use super::Dynamics;
 
 /// What to add up during a step, and where.
 pub enum Account<'a, const N: usize> {

@@ -205,8 +205,7 @@ impl<const N: usize> Dynamics<N> {
         size: f64,
     ) -> f64 {
         let vehicle = &self.vehicle;
-        let turning =
-            self.turning(&motion.rate).max(self.turning(&motion.rate_after(size))) + TUMBLING * k_1[2].abs();
+        let turning = self.turning(&motion.rate).max(self.turning(&motion.rate_after(size))) + TUMBLING * k_1[2].abs();
         let longest = LONGEST.min(RESOLUTION / turning.max(self.control_rate));
         if !contact {
             return longest;

@@ -298,8 +298,10 @@ impl<M: Model> Instance<M> {
 
 #[inline]
 fn lookup<D>(variables: &[Variable<D>], reference: u32) -> Result<&Variable<D>, Error> {
-    let found = usize::try_from(reference).ok().and_then(|position| variables.get(position));
-    found.ok_or_else(|| Error::UnknownReference { reference, count: variables.len() })
+    match usize::try_from(reference).ok().and_then(|position| variables.get(position)) {
+        Some(variable) => Ok(variable),
+        None => Err(Error::UnknownReference { reference, count: variables.len() }),
+    }
 }
 
 /// Whether causality and variability of a variable allow that it is set in `state`.

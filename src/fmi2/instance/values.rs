@@ -72,9 +72,7 @@ impl Scalar for Real {
         match variable.kind {
             Kind::Real { bounds, .. } => Error::OutOfBounds { name, expected: bounds, found: self },
             Kind::Boolean { .. } => Error::NotBoolean { name, found: self },
-            Kind::Enumeration { at } => {
-                Error::NotAnItem { name, items: at(data, variable.index).items(), found: self }
-            }
+            Kind::Enumeration { at } => Error::NotAnItem { name, items: at(data, variable.index).items(), found: self },
         }
     }
 }
