@@ -15,7 +15,7 @@ use crate::fmi2::hash::fnv1a;
 use crate::fmi2::identity::Identity;
 use crate::fmi2::model::Model;
 use crate::fmi2::state::{Call, State};
-use crate::variables::{Causality, Kind, Table};
+use crate::variables::{Kind, Table};
 
 /// Number of the layout of the bytes.
 const FORMAT: u32 = 1;
@@ -78,9 +78,7 @@ impl<M: Model> Instance<M> {
             return Err(format!("the times {start_time}, {time} and {stop_time:?} do not go together"));
         }
         for variable in self.table.variables() {
-            if let (Causality::Parameter | Causality::Input, Kind::Real { bounds, at, .. }) =
-                (variable.causality, variable.kind)
-            {
+            if let Kind::Real { bounds, at, .. } = variable.kind {
                 let found = *at(data, variable.index);
                 if !bounds.admit(found) {
                     return Err(format!("{} must be {bounds}, but is {found}", variable.name));

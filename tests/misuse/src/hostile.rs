@@ -1,7 +1,8 @@
 //! Arguments: mostly such as make sense, some that no host should pass.
 
-use std::ffi::CStr;
+use std::ffi::{CStr, CString};
 use std::ptr;
+use std::sync::LazyLock;
 
 use fastrand::Rng;
 
@@ -37,6 +38,14 @@ const TEXTS: [&CStr; 7] = [
     c"logStatusError",
     c"{00000000-0000-0000-0000-000000000000}",
 ];
+
+/// Bytes of any kind, a few or many thousand, that stand for no text in most cases.
+static BYTES: LazyLock<Vec<CString>> = LazyLock::new(|| {
+    let mut rng = Rng::with_seed(8);
+    let text = |length| std::iter::repeat_with(|| rng.u8(1..)).take(length).collect::<Vec<_>>();
+    let texts = [1, 2, 3, 4, 5, 8, 13, 40, 255, 4096, 100_000].map(text);
+    texts.into_iter().filter_map(|text| CString::new(text).ok()).collect()
+});
 
 /// True once in `n` times.
 pub fn one_in(rng: &mut Rng, n: u32) -> bool {
@@ -87,7 +96,11 @@ pub fn pointer_mut<T>(rng: &mut Rng, real: *mut T) -> *mut T {
 
 /// A text, or null.
 pub fn text(rng: &mut Rng) -> *const std::ffi::c_char {
-    if one_in(rng, 12) { ptr::null() } else { TEXTS[rng.usize(0..TEXTS.len())].as_ptr() }
+    match rng.u32(0..24) {
+        0 | 1 => ptr::null(),
+        2 => BYTES[rng.usize(0..BYTES.len())].as_ptr(),
+        _ => TEXTS[rng.usize(0..TEXTS.len())].as_ptr(),
+    }
 }
 
 /// Bytes, changed: flipped, cut, extended, or others altogether.

@@ -25,7 +25,7 @@ pub fn run(unit: &Unit, count: u32) -> Result<(), String> {
                 (functions.deserialize_state)(component, bytes.as_ptr(), bytes.len(), &raw mut copy),
                 (functions.set_state)(component, copy),
                 (functions.free_state)(component, &raw mut state),
-                (functions.do_step)(component, 2e-2, 1e-2, 1),
+                (functions.do_step)(component, 4e-3, 1e-3, 1),
                 (functions.terminate)(component),
                 (functions.reset)(component),
             ];

@@ -1,33 +1,38 @@
 //! Plays random sequences of calls, legal and illegal, in any order and with hostile arguments, on the C functions
 //! of both FMUs, which are loaded into one process with global symbols. Every sequence follows from its number and
-//! the seed, and must leave an instance that is as new after `fmi2Reset`.
+//! the seed, and must leave an instance that is as new after `fmi2Reset`. Likewise it makes up states and start files.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may fail like a test")]
 
 use std::path::PathBuf;
 use std::process::ExitCode;
-use std::thread;
 use std::time::Instant;
 
 use clap::Parser;
 
+mod crowd;
 mod digest;
+mod forgery;
 mod functions;
+mod guest;
 mod host;
 mod hostile;
 mod lifetimes;
+mod player;
 mod reference;
 mod sequence;
+mod starts;
 mod unit;
 mod watch;
 
+use guest::Fate;
 use sequence::Outcome;
 use unit::Unit;
 
 /// Plays random sequences of calls on the C functions of the FMUs.
 ///
-/// Ends with an error, and the number of the sequence, if a unit crashes, hangs, returns anything but fmi2OK and
-/// fmi2Error, refuses without a message, accepts what the standard forbids, gives an output that is no finite
+/// Ends with an error, and the number of the sequence, if a unit crashes, hangs, panics, returns anything but fmi2OK
+/// and fmi2Error, refuses without a message, accepts what the standard forbids, gives an output that is no finite
 /// number, or is not as new after fmi2Reset.
 #[derive(Parser)]
 struct Options {
@@ -37,13 +42,24 @@ struct Options {
     /// How many sequences to play on each unit; each has about 20 calls.
     #[arg(long, value_name = "NUMBER", default_value_t = 100_000)]
     sequences: u64,
-    /// Number of the first sequence.
+    /// Instead of sequences: so many situations of each unit, whose state is saved and forged eight times, with a
+    /// checksum that is right.
+    #[arg(long, value_name = "NUMBER")]
+    forgeries: Option<u64>,
+    /// Instead of sequences: so many made-up start files in the resources of each unit.
+    #[arg(long, value_name = "NUMBER")]
+    starts: Option<u64>,
+    /// Instead of sequences: so many instances of each unit, one after the other, from instantiation through
+    /// two steps, a state and its bytes, to the end.
+    #[arg(long, value_name = "NUMBER")]
+    instances: Option<u32>,
+    /// Number of the first sequence, situation or file.
     #[arg(long, value_name = "NUMBER", default_value_t = 0)]
     from: u64,
     /// Other seeds, other sequences.
     #[arg(long, value_name = "NUMBER", default_value_t = 1)]
     seed: u64,
-    /// Play one sequence, by its number.
+    /// Play one of them, by its number.
     #[arg(long, value_name = "NUMBER")]
     only: Option<u64>,
     /// Play so many other sequences before, whose answers are not in the fingerprint.
@@ -52,10 +68,17 @@ struct Options {
     /// Threads that play at a time.
     #[arg(long, value_name = "NUMBER", default_value_t = 2, value_parser = clap::value_parser!(u16).range(1..=64))]
     threads: u16,
-    /// Instead of random calls: so many instances of each unit, one after the other, from instantiation through
-    /// two steps, a state and its bytes, to the end.
-    #[arg(long, value_name = "NUMBER")]
-    instances: Option<u32>,
+}
+
+impl Options {
+    /// The numbers of what is to be played, out of `count`.
+    fn numbers(&self, count: u64) -> std::ops::Range<u64> {
+        self.only.map_or(self.from..self.from + count, |only| only..only + 1)
+    }
+
+    fn seed(&self, number: u64) -> u64 {
+        (self.seed << 40) ^ number
+    }
 }
 
 fn main() -> ExitCode {
@@ -80,64 +103,59 @@ fn run(options: &Options) -> Result<(), String> {
     }
     watch::begin();
     for (unit, other) in [(&units[0], &units[1]), (&units[1], &units[0])] {
-        play(unit, other, options)?;
+        match (options.forgeries, options.starts) {
+            (Some(count), _) => forge(unit, options, count),
+            (None, Some(count)) => start(unit, options, count),
+            (None, None) => play(unit, other, options),
+        }?;
     }
     Ok(())
 }
 
-/// Plays all sequences on one unit. The threads share them out.
+/// Plays all sequences on one unit.
 fn play(unit: &Unit, other: &Unit, options: &Options) -> Result<(), String> {
     let begin = Instant::now();
-    let new = reference::instantiate(unit)?;
-    let expected = reference::run(unit, new)?;
-    // SAFETY: not used again.
-    unsafe { (unit.functions.free_instance)(new) };
-
-    for number in 0..options.after {
-        play_some(unit, other, &expected, options.seed + 1, 0, std::iter::once(number))?;
-    }
-    let sequences = options.only.map_or(options.from..options.from + options.sequences, |only| only..only + 1);
-    let threads = usize::from(options.threads);
-    let played: Result<Vec<_>, String> = thread::scope(|scope| {
-        let players: Vec<_> = (0..threads)
-            .map(|thread| {
-                let (mine, expected) = (sequences.clone().skip(thread).step_by(threads), &expected);
-                scope.spawn(move || play_some(unit, other, expected, options.seed, thread, mine))
-            })
-            .collect();
-        players.into_iter().map(|player| player.join().expect("the players do not panic")).collect()
-    });
-    let Outcome { digest, calls, refused, steps } = played?.into_iter().fold(Outcome::default(), Outcome::and);
-    let count = sequences.end - sequences.start;
-    let (percent, seconds) = (100 * refused / calls.max(1), begin.elapsed().as_secs_f64());
+    let expected = reference::of_new(unit)?;
+    let play = |numbers, seed: &(dyn Fn(u64) -> u64 + Sync)| {
+        let stranger = || reference::Stranger::new(other);
+        let play = |stranger: &mut reference::Stranger<'_>, number| {
+            sequence::play(unit, stranger.component, &expected, seed(number)).map_err(repeated(unit, number))
+        };
+        crowd::share(numbers, options.threads, stranger, play, Outcome::and)
+    };
+    play(0..options.after, &|number| options.seed(number) + (1 << 40))?;
+    let numbers = options.numbers(options.sequences);
+    let count = numbers.end - numbers.start;
+    let Outcome { digest, tally } = play(numbers, &|number| options.seed(number))?;
+    let (percent, seconds) = (100 * tally.refused / tally.calls.max(1), begin.elapsed().as_secs_f64());
     println!(
-        "{}: {count} sequences, {calls} calls, {percent} % refused, {steps} steps done, {seconds:.1} s",
-        unit.name
+        "{}: {count} sequences, {} calls, {percent} % refused, {} steps done, {seconds:.1} s",
+        unit.name, tally.calls, tally.steps
     );
     println!("{}: fingerprint {digest:016x}", unit.name);
     Ok(())
 }
 
-/// Plays some sequences in this thread.
-fn play_some(
-    unit: &Unit,
-    other: &Unit,
-    expected: &[u64],
-    seed: u64,
-    thread: usize,
-    sequences: impl Iterator<Item = u64>,
-) -> Result<Outcome, String> {
-    let stranger = reference::instantiate(other)?;
-    let mut sum = Outcome::default();
-    for number in sequences {
-        watch::playing(thread, Some(number));
-        let own_seed = (seed << 40) ^ number;
-        let outcome = sequence::play(unit, stranger, expected, own_seed)
-            .map_err(|message| format!("{}, sequence {number}: {message}\n(--only {number} repeats it)", unit.name))?;
-        sum = sum.and(outcome);
-    }
-    watch::playing(thread, None);
-    // SAFETY: not used again.
-    unsafe { (other.functions.free_instance)(stranger) };
-    Ok(sum)
+/// Forges states of one unit.
+fn forge(unit: &Unit, options: &Options, count: u64) -> Result<(), String> {
+    let forge = |(): &mut (), number| forgery::play(unit, options.seed(number)).map_err(repeated(unit, number));
+    let fate = crowd::share(options.numbers(count), options.threads, || Ok(()), forge, Fate::and)?;
+    println!("{}: {} forged states, {} accepted", unit.name, fate.tried, fate.accepted);
+    Ok(())
+}
+
+/// Makes start files up.
+fn start(unit: &Unit, options: &Options, count: u64) -> Result<(), String> {
+    let folder = || tempfile::tempdir().map_err(|error| error.to_string());
+    let start = |folder: &mut tempfile::TempDir, number| {
+        starts::play(unit, folder.path(), options.seed(number)).map_err(repeated(unit, number))
+    };
+    let fate = crowd::share(options.numbers(count), options.threads, folder, start, Fate::and)?;
+    println!("{}: {} start files, {} accepted", unit.name, fate.tried, fate.accepted);
+    Ok(())
+}
+
+/// A message with the way to see the same again.
+fn repeated(unit: &Unit, number: u64) -> impl FnOnce(String) -> String {
+    move |message| format!("{}, number {number}: {message}\n(--only {number} repeats it)", unit.name)
 }

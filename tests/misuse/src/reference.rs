@@ -17,6 +17,38 @@ pub fn instantiate(unit: &Unit) -> Result<Component, String> {
     if component.is_null() { Err(format!("{}: no instance", unit.name)) } else { Ok(component) }
 }
 
+/// What a new instance gives in the short run.
+///
+/// # Errors
+/// If a call is refused.
+pub fn of_new(unit: &Unit) -> Result<Vec<u64>, String> {
+    let new = Stranger::new(unit)?;
+    run(unit, new.component)
+}
+
+/// An instance that only stands there.
+pub struct Stranger<'a> {
+    unit: &'a Unit,
+    pub component: Component,
+}
+
+impl<'a> Stranger<'a> {
+    /// A new one.
+    ///
+    /// # Errors
+    /// If the unit does not give one.
+    pub fn new(unit: &'a Unit) -> Result<Self, String> {
+        Ok(Self { unit, component: instantiate(unit)? })
+    }
+}
+
+impl Drop for Stranger<'_> {
+    fn drop(&mut self) {
+        // SAFETY: not used again.
+        unsafe { (self.unit.functions.free_instance)(self.component) };
+    }
+}
+
 /// Runs a new instance for two steps, the plant with a rate; the bits of all real outputs.
 ///
 /// # Errors
@@ -35,7 +67,7 @@ pub fn run(unit: &Unit, component: Component) -> Result<Vec<u64>, String> {
         if let Some(rate) = unit.reference("joint[1].rate_command").filter(|rate| !references.contains(rate)) {
             (functions.set_real)(component, &raw const rate, 1, &0.5);
         }
-        let stepped = [(functions.do_step)(component, 0.0, 1e-2, 1), (functions.do_step)(component, 1e-2, 1e-2, 1)];
+        let stepped = [(functions.do_step)(component, 0.0, 2e-3, 1), (functions.do_step)(component, 2e-3, 2e-3, 1)];
         let read = (functions.get_real)(component, references.as_ptr(), references.len(), values.as_mut_ptr());
         [begun.as_slice(), &stepped, &[read]].concat()
     };

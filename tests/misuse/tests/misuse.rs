@@ -69,6 +69,21 @@ fn the_same_calls_get_the_same_answers() {
     assert_ne!(fingerprints(&others), fingerprints(&once), "the fingerprint depends on the calls");
 }
 
+/// What a unit reads is refused or does no harm: states with any content behind a checksum that is right, start files
+/// with any values behind a GUID that is right.
+#[test]
+fn nothing_that_is_read_does_harm() {
+    let (forgeries, starts) = if full() { ("50000", "10000") } else { ("2000", "500") };
+    for options in [["--forgeries", forgeries], ["--starts", starts]] {
+        let said = play(Structure::DEFAULT, &options);
+        for line in said.lines() {
+            let numbers: Vec<f64> = line.split_whitespace().filter_map(|word| word.parse().ok()).collect();
+            let [tried, accepted] = numbers[..] else { panic!("{line}") };
+            assert!((0.05..0.95).contains(&(accepted / tried)), "both ways are gone: {line}");
+        }
+    }
+}
+
 /// Neither a leak nor an access outside of what is allocated, in instances that live as they should and in some
 /// random sequences.
 #[test]
