@@ -8,7 +8,7 @@ use std::cell::RefCell;
 
 use divan::Bencher;
 use nalgebra::SVector;
-use uam::dynamics::{Dynamics, Loads};
+use uam::dynamics::Dynamics;
 use uam::parameters::{Balance, BaseModel};
 use uam::scenarios::default_parameters;
 use uam::{Parameters, Structure};
@@ -29,8 +29,10 @@ fn right_hand_side<const N: usize>(bencher: Bencher<'_, '_>) {
     let mut state = dynamics.start(&parameters).state;
     state.rate = SVector::from_fn(|i, _| 0.5 - 0.2 * i as f64);
     bencher.bench_local(|| {
-        let mut situation = dynamics.situation(divan::black_box(state));
-        dynamics.at_beginning(&mut situation, &Loads::CALM, 0.0)
+        let situation = dynamics.situation(divan::black_box(state));
+        let mut end = state;
+        dynamics.begin_explicit(&situation, 0.0, 1e-3, &mut end);
+        end
     });
 }
 

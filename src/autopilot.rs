@@ -26,7 +26,7 @@ pub struct Gains {
 }
 
 /// Settings of the hover control.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Autopilot {
     /// Kind of control.
     pub mode: AutopilotMode,

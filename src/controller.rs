@@ -1,8 +1,11 @@
 //! Inverse kinematics from one communication point to the next.
 
+mod acceleration;
 mod euler;
 mod exact;
 mod limits;
+mod method;
+mod outset;
 mod planner;
 mod prediction;
 mod resolution;
@@ -152,20 +155,24 @@ impl Clone for Box<dyn Planner> {
     }
 }
 
-/// A controller to be given the memory of another one.
+/// A controller to be given the memory of another one; each of the `parameters` is within its bounds
+/// ([`Parameters::check`]).
 ///
 /// # Errors
-/// If a parameter is out of its bounds, or parameters do not go together.
+/// If parameters do not go together.
 pub fn without_plan(structure: Structure, parameters: &Parameters) -> Result<Box<dyn Planner>> {
-    parameters.check(structure)?;
+    parameters.check_together(structure)?;
+    method::check(structure, parameters)?;
     for_coordinates!(structure, N => Ok(Box::new(Controller::<N>::without_plan(structure, parameters)?)))
 }
 
-/// A controller at the start, with the first interval planned.
+/// A controller at the start, with the first interval planned; each of the `parameters` is within its bounds
+/// ([`Parameters::check`]).
 ///
 /// # Errors
-/// If a parameter is out of its bounds, or parameters do not go together.
+/// If parameters do not go together.
 pub fn new(structure: Structure, parameters: &Parameters, outputs: &mut Outputs) -> Result<Box<dyn Planner>> {
-    parameters.check(structure)?;
+    parameters.check_together(structure)?;
+    method::check(structure, parameters)?;
     for_coordinates!(structure, N => Ok(Box::new(Controller::<N>::new(structure, parameters, outputs)?)))
 }

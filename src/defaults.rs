@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use crate::autopilot::{Autopilot, AutopilotMode, Gains};
 use crate::parameters::{
     Actuation, Balance, BalanceElement, BaseModel, Counterweight, Discretization, Hold, InverseKinematics, Joint, Link,
-    MAX_LINKS, MomentModel, Mount, Parameters, Payload, Resolution, Structure, Support, Uav,
+    MAX_LINKS, MomentModel, Mount, Parameters, PathAxes, Payload, Resolution, Structure, Support, Uav,
 };
 use crate::reference::{Circle, Leg, Profile, Reference, ReferenceKind};
 
@@ -75,6 +75,7 @@ pub fn default_parameters(structure: Structure) -> Parameters {
             sample_time: THESIS_STEP,
             base_model: BaseModel::Full,
             resolution: if links > 2 { Resolution::ExtendedJacobian } else { Resolution::MinimumNorm },
+            path_axes: PathAxes::Both,
             gradient_gain: -392.0,
             moment_model: MomentModel::FreeBase,
             rate_penalty: 0.0,

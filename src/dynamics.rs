@@ -9,6 +9,7 @@ mod advance;
 mod base;
 mod contact;
 mod driven;
+mod explicit;
 mod instant;
 mod law;
 mod loads;
@@ -23,7 +24,7 @@ use nalgebra::{SVector, Vector3};
 
 pub use account::Account;
 pub use driven::{Driven, Torques};
-pub use instant::{Instant, Trend};
+pub use instant::Instant;
 pub use law::Node;
 pub use loads::{Load, Loads};
 pub use rates::{Rates, Trace};
@@ -90,6 +91,12 @@ impl<const N: usize> State<N> {
         }
     }
 
+    /// Momentum, and angular momentum about the UAV's centre of mass, in the axes of a frame turned by `turn`.
+    #[must_use]
+    pub fn momentum_in(&self, turn: Turn) -> Twist {
+        Twist { linear: turn.undo(self.momentum.xy()), angular: self.momentum.z }
+    }
+
     /// Whether a simulation can be in this state.
     ///
     /// # Errors
@@ -111,20 +118,37 @@ impl<const N: usize> State<N> {
     /// # Errors
     /// Names the first quantity that is not, at `time` \[s\].
     pub fn check(&self, time: f64) -> Result<()> {
-        let quantities: [(&'static str, &[f64]); 5] = [
-            ("base position", self.pose.as_slice()),
-            ("momentum", self.momentum.as_slice()),
-            ("integral of the autopilot", self.integrals.as_slice()),
-            ("joint position", self.position.as_slice()),
-            ("base velocity", self.velocity.as_slice()),
-        ];
-        for (quantity, values) in quantities {
-            if let Some(&value) = values.iter().find(|value| !value.is_finite()) {
-                return Err(Error::NotFinite { quantity, value, time });
-            }
+        let Self { pose, momentum, integrals, position, velocity, .. } = self;
+        let sum = pose.sum() + momentum.sum() + integrals.sum() + position.sum() + velocity.sum();
+        if sum.is_finite() {
+            return Ok(());
         }
-        Ok(())
+        check_finite(
+            &[
+                ("base position", pose.as_slice()),
+                ("momentum", momentum.as_slice()),
+                ("integral of the autopilot", integrals.as_slice()),
+                ("joint position", position.as_slice()),
+                ("base velocity", velocity.as_slice()),
+            ],
+            time,
+        )
     }
+}
+
+/// Whether every number of these quantities is finite.
+///
+/// # Errors
+/// Names the first one that is not, at `time` \[s\].
+#[cold]
+#[inline(never)]
+pub fn check_finite(quantities: &[(&'static str, &[f64])], time: f64) -> Result<()> {
+    for &(quantity, values) in quantities {
+        if let Some(&value) = values.iter().find(|value| !value.is_finite()) {
+            return Err(Error::NotFinite { quantity, value, time });
+        }
+    }
+    Ok(())
 }
 
 /// A state with what follows from it and is worth keeping: attitude and the sums over the arm.
@@ -145,12 +169,6 @@ impl<const N: usize> Situation<N> {
     #[must_use]
     pub fn base(&self) -> Twist {
         Twist { linear: self.turn.undo(self.state.velocity.xy()), angular: self.state.velocity.z }
-    }
-
-    /// Momentum, and angular momentum about the UAV's centre of mass, in the axes of the UAV frame.
-    #[must_use]
-    pub fn momentum(&self) -> Twist {
-        Twist { linear: self.turn.undo(self.state.momentum.xy()), angular: self.state.momentum.z }
     }
 
     /// A place in the UAV frame \[m\], in the inertial frame \[m\].
@@ -228,7 +246,7 @@ impl Add for Impulse {
 }
 
 /// The laws of motion with all their constants.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Copy)]
 pub struct Dynamics<const N: usize> {
     /// Mass properties.
     pub vehicle: Vehicle<N>,
@@ -269,8 +287,8 @@ impl<const N: usize> Dynamics<N> {
             vehicle,
             base: if parameters.autopilot.mode == AutopilotMode::Ideal { BaseModel::Ideal } else { base },
             moment_model: parameters.ik.moment_model,
-            autopilot: parameters.autopilot.clone(),
-            support: parameters.support.clone(),
+            autopilot: parameters.autopilot,
+            support: parameters.support,
             hover_thrust,
             continuous: false,
             control_rate: 0.0,

@@ -3,7 +3,7 @@
 pub mod controller;
 pub mod plant;
 
-use crate::parameters::Balance;
+use crate::parameters::{Balance, Resolution};
 use crate::unit::{self, Unit};
 use crate::variables::{Bounds, Causality, Table, Variability};
 
@@ -27,6 +27,8 @@ struct Balancing {
     name: &'static str,
     /// In sentences.
     noun: &'static str,
+    /// The resolution that moves it.
+    moved_by: Resolution,
     /// What its position is.
     place: &'static str,
     /// What its motor exerts.
@@ -45,6 +47,7 @@ impl Balancing {
             Balance::Counterweight => Some(Self {
                 name,
                 noun: "counterweight",
+                moved_by: Resolution::LeastSquares,
                 place: "Position of the counterweight along the UAV's x axis",
                 exerted: "Force of the motor of the counterweight on it",
                 effort: "force",
@@ -53,6 +56,7 @@ impl Balancing {
             Balance::Element => Some(Self {
                 name,
                 noun: "balance element",
+                moved_by: Resolution::AccelerationLevel,
                 place: "Angle of the balance element in the UAV frame",
                 exerted: "Torque of the motor of the balance element on it",
                 effort: "torque",

@@ -247,7 +247,7 @@ pub struct Payload {
 }
 
 /// The elastic support on which the payload rests (thesis 4.1).
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Support {
     /// Stiffness \[N/m\].
     pub stiffness: f64,
@@ -282,6 +282,29 @@ options! {
         ExtendedJacobian = "extended_jacobian",
         #[doc = " As little moment on the UAV as limits of rate, acceleration and position allow (thesis 3.7, 3.8, 4.4)."]
         LeastSquares = "least_squares",
+        #[doc = " No moment on the UAV, by accelerations of arm and balance element; rates do not jump (thesis 3.4)."]
+        AccelerationLevel = "acceleration_level",
+    }
+}
+
+options! {
+    #[doc = " Along which axes of the inertial frame the end effector follows the path."]
+    pub enum PathAxes {
+        #[doc = " Along x and y."]
+        Both = "both",
+        #[doc = " Along x, wherever that leads along y (thesis 3.4)."]
+        Horizontal = "horizontal",
+    }
+}
+
+impl PathAxes {
+    /// How many they are.
+    #[must_use]
+    pub fn number(self) -> usize {
+        match self {
+            Self::Both => 2,
+            Self::Horizontal => 1,
+        }
     }
 }
 
@@ -326,6 +349,8 @@ pub struct InverseKinematics {
     pub base_model: BaseModel,
     /// Use of redundancy.
     pub resolution: Resolution,
+    /// What of the path is followed.
+    pub path_axes: PathAxes,
     /// Rates per gradient of the squared distance of centres of mass \[rad/(m2 s)\].
     pub gradient_gain: f64,
     /// Prediction of the moment on the UAV.
@@ -402,6 +427,14 @@ impl Parameters {
                 }
             }
         }
+        self.check_together(structure)
+    }
+
+    /// Checks whether parameters that are within their bounds go together.
+    ///
+    /// # Errors
+    /// Names the first parameter that does not suit another one, with what was expected and found.
+    pub fn check_together(&self, structure: Structure) -> Result<()> {
         for (i, Joint { lower, upper, .. }) in self.joints.iter().enumerate().take(structure.links) {
             if lower > upper {
                 return Err(Error::Inconsistent {

@@ -30,7 +30,7 @@ options! {
 }
 
 /// A straight leg of a path: accelerates for `ramp`, cruises, brakes for `ramp`.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Leg {
     /// When it begins, from the start of the run \[s\].
     pub start: f64,
@@ -92,7 +92,7 @@ impl Profile {
 }
 
 /// One turn on a circle, at rest before and after; the angle's acceleration is a sine, so continuous.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Circle {
     /// Diameter \[m\].
     pub diameter: f64,
@@ -113,8 +113,14 @@ pub struct Target {
     pub acceleration: Vec2,
 }
 
+impl Target {
+    /// At the starting point.
+    pub const AT_REST: Self =
+        Self { displacement: vec2(0.0, 0.0), velocity: vec2(0.0, 0.0), acceleration: vec2(0.0, 0.0) };
+}
+
 /// The wanted motion of the end effector.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reference {
     /// Which of the motions.
     pub kind: ReferenceKind,
@@ -148,7 +154,7 @@ impl Reference {
     /// The wanted motion at time `t` \[s\] from the start; at rest for [`ReferenceKind::External`].
     #[must_use]
     pub fn at(&self, t: f64) -> Target {
-        let mut target = Target { displacement: Vec2::zeros(), velocity: Vec2::zeros(), acceleration: Vec2::zeros() };
+        let mut target = Target::AT_REST;
         match self.kind {
             ReferenceKind::Path => {
                 for leg in &self.legs {

@@ -53,7 +53,7 @@ pub enum Balancer {
 }
 
 /// Constants of an aerial manipulator with `N` coordinates.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Copy)]
 pub struct Vehicle<const N: usize> {
     /// Number of revolute links of the arm: `N`, or `N - 1` if something balances it.
     pub links: usize,

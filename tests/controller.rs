@@ -126,9 +126,9 @@ fn beyond_reach_and_back() {
                 DEFAULT,
                 &with(|p| {
                     (p.ik.resolution, p.ik.discretization) = (resolution, discretization);
-                    let leg = p.reference.legs[0].clone();
+                    let leg = p.reference.legs[0];
                     p.reference.legs = std::array::from_fn(|_| uam::reference::Leg::NONE);
-                    p.reference.legs[0] = uam::reference::Leg { dx: 0.0, dy: -0.25, ..leg.clone() };
+                    p.reference.legs[0] = uam::reference::Leg { dx: 0.0, dy: -0.25, ..leg };
                     p.reference.legs[1] = uam::reference::Leg { start: 2.0, dx: 0.0, dy: 0.25, ..leg };
                     p.payload.grasp_time = 100.0;
                 }),

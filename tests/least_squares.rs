@@ -32,9 +32,9 @@ fn counterweight(way: f64) -> (Structure, Parameters) {
     for joint in &mut p.joints {
         (joint.rate_limit, joint.acceleration_limit) = (6.0, 60.0);
     }
-    let leg = uam::reference::Leg { duration: 2.0, ramp: 0.5, dx: way, dy: 0.0, ..p.reference.legs[0].clone() };
+    let leg = uam::reference::Leg { duration: 2.0, ramp: 0.5, dx: way, dy: 0.0, ..p.reference.legs[0] };
     p.reference.legs = std::array::from_fn(|_| uam::reference::Leg::NONE);
-    p.reference.legs[0] = leg.clone();
+    p.reference.legs[0] = leg;
     p.reference.legs[1] = uam::reference::Leg { start: 2.0, dx: -way, ..leg };
     (structure, p)
 }
@@ -287,8 +287,7 @@ fn limits_can_be_tuned() {
 #[test]
 fn the_counterweight_does_not_chatter() {
     let (structure, mut p) = counterweight(0.0);
-    p.reference.legs[0] =
-        uam::reference::Leg { duration: 1.5, ramp: 0.5, dx: 0.11, dy: -0.05, ..p.reference.legs[0].clone() };
+    p.reference.legs[0] = uam::reference::Leg { duration: 1.5, ramp: 0.5, dx: 0.11, dy: -0.05, ..p.reference.legs[0] };
     (p.payload.grasp_time, p.support.stiffness) = (-1.0, 0.0);
     let mut coupling = Coupling::new(structure, &p);
     let (mut before, mut total) = ([0.0; 7], 0.0);

@@ -96,7 +96,7 @@ fn a_leg_without_ramps_moves_at_constant_velocity() {
 fn overlapping_legs_add_up() {
     let first = leg(Profile::Smooth);
     let second = Leg { start: 2.0, duration: 5.0, ramp: 0.7, dx: -0.1, dy: 0.2, profile: Profile::Trapezoidal };
-    let both = path(&[first.clone(), second.clone()]);
+    let both = path(&[first, second]);
     for t in [0.5, 1.2, 2.3, 3.9, 6.8, 9.0] {
         let (a, b) = (motion(&path(from_ref(&first)), t), motion(&path(from_ref(&second)), t));
         assert_close(&motion(&both, t), &std::array::from_fn::<_, 6, _>(|i| a[i] + b[i]), 1e-15, &format!("{t}"));
@@ -132,15 +132,15 @@ fn external_reference_is_no_motion_of_its_own() {
 #[test]
 fn check_names_the_leg_whose_ramps_do_not_fit() {
     let good = leg(Profile::Smooth);
-    let long = Leg { ramp: 1.5001, ..good.clone() };
-    let message = path(&[good.clone(), good.clone(), long]).check().unwrap_err().to_string();
+    let long = Leg { ramp: 1.5001, ..good };
+    let message = path(&[good, good, long]).check().unwrap_err().to_string();
     assert!(message.contains("reference.leg[3].ramp = 1.5001"), "{message}");
-    let sudden = Leg { ramp: 0.0, ..good.clone() };
-    let message = path(&[good.clone(), sudden]).check().unwrap_err().to_string();
+    let sudden = Leg { ramp: 0.0, ..good };
+    let message = path(&[good, sudden]).check().unwrap_err().to_string();
     assert!(message.contains("reference.leg[2].ramp = 0"), "{message}");
     // A leg without duration is none, whatever its ramp.
-    let none = Leg { duration: 0.0, ramp: 9.0, ..good.clone() };
-    assert!(path(&[none.clone(), good]).check().is_ok());
+    let none = Leg { duration: 0.0, ramp: 9.0, ..good };
+    assert!(path(&[none, good]).check().is_ok());
     assert_eq!(motion(&path(&[none]), 2.0), [0.0; 6]);
 }
 

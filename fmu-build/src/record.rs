@@ -30,6 +30,7 @@ impl Names {
                 .chain(list(&["predicted.base.x", "predicted.base.y", "predicted.base.roll"]))
                 .chain(per_joint("rate_command"))
                 .chain(balance("rate_command"))
+                .chain(balance("acceleration_command"))
                 .chain(list(&["ik.status", "ik.min_singular_value"]))
                 .collect(),
             plant: list(&["base.x", "base.y", "base.roll"])
@@ -41,6 +42,7 @@ impl Names {
                     "autopilot.thrust",
                     "autopilot.torque",
                     "transmitted.moment",
+                    "center_of_mass.x",
                     "payload.attached",
                     "payload.force_y",
                     "support.force",

@@ -7,50 +7,45 @@
 
 use nalgebra::SVector;
 
+use super::Status;
+use super::outset::Outset;
 use super::planner::Plan;
 use super::prediction::Prediction;
 use super::resolution::{Problem, Task};
-use super::{Controller, Status};
-use crate::dynamics::{Account, Loads, Motion};
+use crate::dynamics::{Account, Loads, Motion, Situation};
 use crate::error::Result;
 use crate::parameters::Hold;
 use crate::reference::Target;
 
-/// Iterations of a plan at most; two do normally, more where a stiff autopilot answers within the interval.
-const ITERATIONS: usize = 6;
+/// Iterations of a plan at most; one does normally, more where a stiff autopilot answers within the interval.
+pub(super) const ITERATIONS: usize = 6;
 
 /// End effector this close to the reference at the end of the interval is on it \[m\].
-const ON_REFERENCE: f64 = 1e-12;
+pub(super) const ON_REFERENCE: f64 = 1e-12;
 
 /// Farther from the reference than this, an iteration that has come to its end has failed \[m\].
-const INEXACT: f64 = 1e-6;
+pub(super) const INEXACT: f64 = 1e-6;
 
 /// Moment impulses on the UAV below this are none \[N m s\].
-const NO_IMPULSE: f64 = 1e-12;
+pub(super) const NO_IMPULSE: f64 = 1e-12;
 
-impl<const N: usize> Controller<N> {
+impl<const N: usize> Outset<N> {
     /// Rates for the interval of length `horizon` from time `t` that bring the end effector onto the `target`
     /// at its end, as near as the iteration gets: its place, and with a hold of first order its velocity.
+    /// Writes the prediction at its `end`.
     ///
     /// # Errors
     /// If the interval cannot be integrated.
-    pub(super) fn plan_exact(&self, t: f64, horizon: f64, target: &Target) -> Result<Plan<N>> {
-        let dynamics = &self.dynamics;
+    pub fn plan_exact(&self, t: f64, horizon: f64, target: &Target, end: &mut Prediction<N>) -> Result<Plan<N>> {
         let ramped = self.hold == Hold::FirstOrder;
-        // Rates that go on changing as they did are close already.
-        let guess = if ramped { self.motion } else { Motion::constant(self.motion.rate * 2.0 - self.rate_before) };
-        let mut plan = Plan { places: self.places, ..Plan::moving(guess, self.now) };
+        let mut plan = Plan { places: self.places, ..Plan::moving(if ramped { self.motion } else { self.go_on() }) };
         let allowed = self.allowed(horizon);
         let mut left_over = 0.0;
         let mut nearest: Option<(f64, Plan<N>)> = None;
         for iteration in 0..=ITERATIONS {
-            let mut end = self.now.situation;
-            let mut impulse = 0.0;
-            dynamics.advance(&mut end, &plan.motion, &Loads::CALM, t, horizon, Account::Carried(&mut impulse))?;
-            plan.end = Prediction::at_end(dynamics, end);
-            let moment = self.now.carried + impulse - plan.end.carried;
-            plan.moment_residual = moment / horizon;
-            let missing = target.displacement - plan.end.end_effector();
+            let impulse = self.carry_out(&mut plan, t, horizon, end)?;
+            let moment = plan.moment_residual * horizon;
+            let missing = target.displacement - end.end_effector();
             let miss = missing.norm();
             let moment_free = !self.resolver.cancels_moment() || (moment - left_over).abs() <= NO_IMPULSE;
             if iteration > 0 {
@@ -58,16 +53,17 @@ impl<const N: usize> Controller<N> {
                     return Ok(plan);
                 }
                 if plan.status == Status::Ok && nearest.as_ref().is_none_or(|(least, _)| miss < *least) {
-                    nearest = Some((miss, plan.clone()));
+                    nearest = Some((miss, plan));
                 }
             }
             if iteration == ITERATIONS {
                 break;
             }
 
-            let response = self.response(&end);
+            let Situation { node, turn, state } = &end.situation;
+            let response = self.response(node, *turn, state);
             let mean = plan.motion.rate_after(0.5 * horizon);
-            let velocity = response.jacobian * mean + end.turn.undo(missing / horizon);
+            let velocity = response.jacobian * mean + turn.undo(missing / horizon);
             let moment = Task { row: response.carried, value: self.now.carried + impulse - response.carried_free };
             let mut problem = Problem {
                 beginning: &self.now.situation,
@@ -78,9 +74,9 @@ impl<const N: usize> Controller<N> {
                 guess: &plan.places,
             };
             if ramped {
-                problem.velocity = end.turn.undo(target.velocity) - response.end_effector_free;
+                problem.velocity = turn.undo(target.velocity) - response.end_effector_free;
             }
-            let resolved = self.resolver.solve(&dynamics.vehicle, &problem);
+            let resolved = self.resolver.solve(&self.dynamics.vehicle, &problem);
             let motion = if ramped && resolved.status == Status::Ok {
                 self.ramp(&Problem { velocity, ..problem }, &resolved.rate, horizon)
             } else {
@@ -90,10 +86,35 @@ impl<const N: usize> Controller<N> {
             plan.min_singular_value = resolved.min_singular_value;
             left_over = resolved.moment;
         }
-        match nearest {
-            Some((_, nearest)) if plan.status == Status::Ok => Ok(Plan { status: Status::Inexact, ..nearest }),
-            _ => Ok(plan),
+        if let Some((_, nearest)) = nearest
+            && plan.status == Status::Ok
+        {
+            plan = Plan { status: Status::Inexact, ..nearest };
+            self.carry_out(&mut plan, t, horizon, end)?;
         }
+        Ok(plan)
+    }
+
+    /// Constant rates that go on changing as they did: so close that one iteration leaves nothing, while it takes two
+    /// from rates extrapolated along a straight line.
+    fn go_on(&self) -> Motion<N> {
+        let [last, before] = &self.before;
+        Motion::constant((self.motion.rate - last) * 3.0 + before)
+    }
+
+    /// Integrates the interval of length `horizon` from time `t` in the motion of the `plan`: where it ends, and the
+    /// moment on the UAV. The result is the impulse of all other moments on what the UAV carries \[N m s\].
+    ///
+    /// # Errors
+    /// If it cannot be integrated.
+    pub fn carry_out(&self, plan: &mut Plan<N>, t: f64, horizon: f64, end: &mut Prediction<N>) -> Result<f64> {
+        let dynamics = &self.dynamics;
+        let mut impulse = 0.0;
+        end.situation = self.now.situation;
+        dynamics.advance(&mut end.situation, &plan.motion, &Loads::CALM, t, horizon, Account::Carried(&mut impulse))?;
+        end.end_step(dynamics);
+        plan.moment_residual = (self.now.carried + impulse - end.carried) / horizon;
+        Ok(impulse)
     }
 
     /// The motion that ends at the rates `last` and follows the path of `problem` in the mean.

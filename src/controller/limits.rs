@@ -1,6 +1,6 @@
 //! How fast a coordinate may be in the coming interval: it must be able to stop in time.
 
-use crate::parameters::{Counterweight, Joint, MAX_COORDINATES, Parameters};
+use crate::parameters::{Counterweight, Joint};
 use crate::qp::{MAX_VARIABLES, Vector};
 
 /// Limits of one coordinate \[rad, m; s\].
@@ -73,17 +73,6 @@ impl Limits {
             (2.0 * self.acceleration * distance).sqrt() * (1.0 - 1.0 / MANY)
         }
     }
-}
-
-/// The limits of `links` joints and of what stands behind them: the same for each number of coordinates, so
-/// that the library holds one copy.
-#[must_use]
-#[inline(never)]
-pub fn all(parameters: &Parameters, links: usize) -> [Limits; MAX_COORDINATES] {
-    std::array::from_fn(|i| match parameters.joints.get(i) {
-        Some(joint) if i < links => Limits::from(joint),
-        _ => Limits::from(&parameters.counterweight),
-    })
 }
 
 /// What the limits allow in one interval.

@@ -25,11 +25,10 @@ impl<const N: usize> Prediction<N> {
         Self { situation, carried: 0.0 }
     }
 
-    /// At the end of a step, with the payload held or not as in it.
-    pub fn at_end(dynamics: &Dynamics<N>, situation: Situation<N>) -> Self {
-        let Situation { node, turn, .. } = &situation;
-        let carried = dynamics.carried_momentum(node, *turn, situation.base(), node.arm).angular;
-        Self { situation, carried }
+    /// Its situation is the end of a step: the angular momentum follows from it.
+    pub fn end_step(&mut self, dynamics: &Dynamics<N>) {
+        let Situation { node, turn, .. } = &self.situation;
+        self.carried = dynamics.carried_momentum(node, *turn, self.situation.base(), node.arm).angular;
     }
 
     /// Whether a controller can be here.

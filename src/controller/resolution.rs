@@ -16,10 +16,10 @@ pub use pseudo_inverse::{PATH_THRESHOLD, PseudoInverse, resolve};
 use weights::Weights;
 
 use super::Status;
-use super::limits::{self, Allowed, Limits};
+use super::limits::{Allowed, Limits};
 use crate::dynamics::Situation;
-use crate::parameters::{MAX_COORDINATES, Parameters, Resolution};
-use crate::planar::Vec2;
+use crate::parameters::{MAX_COORDINATES, Parameters, PathAxes, Resolution};
+use crate::planar::{Vec2, vec2};
 use crate::qp::{self, Places};
 use crate::vehicle::{Balancer, Vehicle};
 
@@ -65,13 +65,14 @@ pub(super) struct Resolved<const N: usize> {
 }
 
 /// The chosen method with its settings.
-#[derive(Debug, Clone)]
-pub(super) struct Resolver<const N: usize> {
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Resolver {
     kind: Resolution,
+    axes: PathAxes,
     links: usize,
     /// Length of the stretched arm \[m\].
     reach: f64,
-    weights: Weights<N>,
+    weights: Weights,
     gradient_gain: f64,
     rate_penalty: f64,
     /// Time constant of the counterweight \[s\].
@@ -79,38 +80,77 @@ pub(super) struct Resolver<const N: usize> {
     limits: [Limits; MAX_COORDINATES],
 }
 
-impl<const N: usize> Resolver<N> {
-    pub fn new(vehicle: &Vehicle<N>, parameters: &Parameters) -> Self {
-        Self {
+impl Resolver {
+    /// The method in `parameters` for an arm of `links` links, stretched as long as `reach` \[m\].
+    pub fn new(parameters: &Parameters, links: usize, reach: f64) -> Self {
+        let mut resolver = Self {
             kind: parameters.ik.resolution,
-            links: vehicle.links,
-            reach: vehicle.reach(),
-            weights: Weights::new(parameters, vehicle.links),
-            gradient_gain: parameters.ik.gradient_gain,
-            rate_penalty: parameters.ik.rate_penalty,
+            axes: parameters.ik.path_axes,
+            links,
+            reach,
+            weights: Weights::EQUAL,
+            gradient_gain: 0.0,
+            rate_penalty: 0.0,
             balancing_time: parameters.counterweight.time_constant,
-            limits: limits::all(parameters, vehicle.links),
-        }
+            limits: [Limits::from(&parameters.counterweight); MAX_COORDINATES],
+        };
+        resolver.tune(parameters);
+        resolver
+    }
+
+    /// Takes over what may change during a run.
+    pub fn tune(&mut self, parameters: &Parameters) {
+        self.gradient_gain = parameters.ik.gradient_gain;
+        self.rate_penalty = parameters.ik.rate_penalty;
+        self.balancing_time = parameters.counterweight.time_constant;
+        let joints = &parameters.joints[..self.links];
+        self.weights.tune(joints);
+        self.limits.iter_mut().zip(joints).for_each(|(limits, joint)| *limits = joint.into());
+        self.limits[self.links] = (&parameters.counterweight).into();
     }
 
     /// Whether the method asks for rates without moment on the UAV.
     pub fn cancels_moment(&self) -> bool {
-        matches!(self.kind, Resolution::ExtendedJacobian | Resolution::LeastSquares)
+        matches!(self.kind, Resolution::ExtendedJacobian | Resolution::LeastSquares | Resolution::AccelerationLevel)
     }
 
-    /// Whether what balances the arm is in motion: a counterweight, by its own law.
+    /// Whether rates do not jump: accelerations are chosen.
+    pub fn accelerates(&self) -> bool {
+        self.kind == Resolution::AccelerationLevel
+    }
+
+    /// The part of the vector `v` of the inertial frame that belongs to the path.
+    pub fn followed(&self, v: Vec2) -> Vec2 {
+        match self.axes {
+            PathAxes::Both => v,
+            PathAxes::Horizontal => vec2(v.x, 0.0),
+        }
+    }
+
+    /// Whether what balances the arm is in motion: a counterweight by its own law, a balance element together
+    /// with the arm.
     ///
     /// Otherwise it holds still. Minimum norm would displace it without regard to the moment of its weight; and since
     /// a counterweight sits above the UAV's centre of mass, its acceleration turns the UAV the wrong way before
     /// its weight turns it the right way (thesis 3.8), so that rates which cancel the moment at every instant
     /// would grow without bound.
-    pub fn moves_balancer(&self, vehicle: &Vehicle<N>) -> bool {
-        self.kind == Resolution::LeastSquares && matches!(vehicle.balancer, Some(Balancer::Counterweight(_)))
+    pub fn moves_balancer<const N: usize>(&self, vehicle: &Vehicle<N>) -> bool {
+        match vehicle.balancer {
+            None => false,
+            Some(Balancer::Counterweight(_)) => self.kind == Resolution::LeastSquares,
+            Some(Balancer::Element(_)) => self.kind == Resolution::AccelerationLevel,
+        }
     }
 
     /// What the limits allow in an interval of length `size` \[s\] that starts in `now` after the rates `before`.
     /// What balances the arm goes by a law of its own; its rate is fixed.
-    pub fn allowed(&self, vehicle: &Vehicle<N>, now: &Situation<N>, before: &SVector<f64, N>, size: f64) -> Allowed {
+    pub fn allowed<const N: usize>(
+        &self,
+        vehicle: &Vehicle<N>,
+        now: &Situation<N>,
+        before: &SVector<f64, N>,
+        size: f64,
+    ) -> Allowed {
         if self.kind != Resolution::LeastSquares {
             return Allowed::nothing(size);
         }
@@ -124,38 +164,48 @@ impl<const N: usize> Resolver<N> {
     }
 
     /// The rates that the method chooses.
-    pub fn solve(&self, vehicle: &Vehicle<N>, problem: &Problem<'_, N>) -> Resolved<N> {
+    pub fn solve<const N: usize>(&self, vehicle: &Vehicle<N>, problem: &Problem<'_, N>) -> Resolved<N> {
         let Problem { beginning, path, velocity, moment, .. } = problem;
         let (preferred, task) = match self.kind {
             // The smallest rates: right pseudo-inverse of the generalized Jacobian (thesis 1.8).
             Resolution::MinimumNorm => (SVector::zeros(), None),
             Resolution::Gradient => (gradient::preferred(vehicle, beginning, self.gradient_gain), None),
             // One more row below the generalized Jacobian (thesis 3.2, 3.3 and 3.6).
-            Resolution::ExtendedJacobian => (SVector::zeros(), Some(moment)),
+            Resolution::ExtendedJacobian | Resolution::AccelerationLevel => (SVector::zeros(), Some(moment)),
             Resolution::LeastSquares => return self.least_squares(problem),
         };
-        self.scaled(problem, &self.weights.resolve(path, *velocity, &preferred, task, self.reach))
+        let mut found = self.weights.resolve(path, *velocity, &preferred, task, self.reach);
+        if self.axes == PathAxes::Horizontal {
+            // The other row is zero since nothing is asked for along it.
+            found.min_singular_value = path.row(0).norm();
+            found.path_damped = found.min_singular_value < PATH_THRESHOLD * self.reach;
+        }
+        self.scaled(problem, &found)
     }
 
     /// The rates nearest to `preferred` ones that follow the path.
-    pub fn nearest(&self, problem: &Problem<'_, N>, preferred: &SVector<f64, N>) -> SVector<f64, N> {
+    pub fn nearest<const N: usize>(&self, problem: &Problem<'_, N>, preferred: &SVector<f64, N>) -> SVector<f64, N> {
         self.weights.resolve(&problem.path, problem.velocity, preferred, None, self.reach).rate
     }
 
     /// Rates scaled down so that none exceeds its limit.
-    pub fn within_limits(&self, rate: SVector<f64, N>) -> SVector<f64, N> {
-        rate / self.excess(&rate).max(1.0)
+    pub fn within_limits<const N: usize>(&self, rate: SVector<f64, N>) -> SVector<f64, N> {
+        rate / self.excess(&rate)
     }
 
-    /// The largest share of its limit that a rate has.
-    fn excess(&self, rate: &SVector<f64, N>) -> f64 {
-        (0..self.links).map(|i| rate[i].abs() / self.limits[i].rate).fold(0.0, f64::max)
+    /// The largest share of its limit that a rate has, if one exceeds it; 1 if none does.
+    fn excess<const N: usize>(&self, rate: &SVector<f64, N>) -> f64 {
+        let limited = || rate.iter().zip(&self.limits).take(self.links);
+        if limited().all(|(rate, limits)| rate.abs() <= limits.rate) {
+            return 1.0;
+        }
+        limited().map(|(rate, limits)| rate.abs() / limits.rate).fold(1.0, f64::max)
     }
 
     /// Scales rates down so that none exceeds its limit, and sums up how they came about.
-    fn scaled(&self, problem: &Problem<N>, found: &PseudoInverse<N>) -> Resolved<N> {
+    fn scaled<const N: usize>(&self, problem: &Problem<N>, found: &PseudoInverse<N>) -> Resolved<N> {
         let excess = self.excess(&found.rate);
-        let rate = found.rate / excess.max(1.0);
+        let rate = found.rate / excess;
         Resolved {
             rate,
             status: if excess > 1.0 { Status::RateLimited } else { found.status() },

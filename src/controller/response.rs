@@ -2,9 +2,9 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::dynamics::{Dynamics, Situation};
+use crate::dynamics::{Dynamics, Node};
 use crate::momentum::Twist;
-use crate::planar::{Vec2, perp};
+use crate::planar::{Turn, Vec2, perp};
 
 /// Linear answers to the rates in one configuration, axes of the UAV frame:
 /// v_b = base q_dot + base_free and v_ee = jacobian q_dot + end_effector_free (thesis 2.27 and 2.28).
@@ -26,12 +26,12 @@ pub(super) struct Response<const N: usize> {
 }
 
 impl<const N: usize> Response<N> {
-    /// Answers of a system in this configuration, with this momentum.
-    pub fn new(dynamics: &Dynamics<N>, situation: &Situation<N>) -> Self {
-        let (vehicle, Situation { node, turn, .. }) = (&dynamics.vehicle, situation);
+    /// Answers of a system whose arm is at `node`, turned by `turn`, with this momentum in the axes of the UAV frame.
+    pub fn new(dynamics: &Dynamics<N>, node: &Node<N>, turn: Turn, momentum: Twist) -> Self {
+        let vehicle = &dynamics.vehicle;
         let (matrix, tip) = (&node.matrix, node.posture.end_effector);
         let base = matrix.columns.map(|column| dynamics.base_motion(node, Twist::ZERO, column));
-        let base_free = dynamics.base_motion(node, situation.momentum(), Twist::ZERO);
+        let base_free = dynamics.base_motion(node, momentum, Twist::ZERO);
         let at_tip = |v: Twist| {
             let v = dynamics.base.carried(v);
             v.linear + perp(tip) * v.angular
@@ -39,7 +39,7 @@ impl<const N: usize> Response<N> {
         let own = |i: usize| {
             if i < vehicle.links { perp(tip - node.posture.joint[i]) } else { Vec2::zeros() }
         };
-        let carried = |v: Twist, arm: Twist| dynamics.carried_momentum(node, *turn, v, arm).angular;
+        let carried = |v: Twist, arm: Twist| dynamics.carried_momentum(node, turn, v, arm).angular;
         Self {
             base,
             base_free,
@@ -61,6 +61,11 @@ impl<const N: usize> Response<N> {
     /// Motion of the base at the rates `rate`, axes of the UAV frame.
     pub fn base_velocity(&self, rate: &SVector<f64, N>) -> Twist {
         self.base.iter().zip(rate.iter()).fold(self.base_free, |v, (reaction, rate)| v + *reaction * *rate)
+    }
+
+    /// Velocity of the end effector at the rates `rate`, axes of the UAV frame \[m/s\].
+    pub fn end_effector_velocity(&self, rate: &SVector<f64, N>) -> Vec2 {
+        self.jacobian * rate + self.end_effector_free
     }
 
     /// Angular momentum of what the UAV carries at the rates `rate` \[N m s\].

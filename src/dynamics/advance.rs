@@ -223,7 +223,7 @@ impl<const N: usize> Dynamics<N> {
 
 /// How often turns have been refreshed up to time `t` \[s\].
 #[allow(clippy::cast_possible_truncation)] // saturates in late times that nobody reaches
-fn refreshed(t: f64) -> i64 {
+pub(super) fn refreshed(t: f64) -> i64 {
     (t * REFRESHED) as i64
 }
 

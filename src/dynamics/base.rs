@@ -30,15 +30,23 @@ impl BaseModel {
         h: Twist,
         arm: Twist,
     ) -> Twist {
-        let (mass, left) = (matrix.mass, h - arm);
-        let rolling = |y: f64| Twist { linear: vec2(left.linear.x, y) / mass, angular: left.angular / inertia };
         match self {
-            Self::Ideal => Twist { linear: vec2(left.linear.x / mass, 0.0), angular: 0.0 },
-            Self::HorizontalThrust => rolling(0.0),
-            Self::VerticalThrust => rolling(h.linear.y),
-            Self::Translating => rolling(left.linear.y),
-            Self::Full => matrix.base_response(left),
+            Self::Full => matrix.base_response(h - arm),
+            _ => self.reduced_velocity(matrix.mass, inertia, h, h - arm),
         }
+    }
+
+    /// The same for the models that neglect something; `left` = `h` - `arm`. One copy for all numbers of coordinates,
+    /// and out of the way of the full model.
+    #[inline(never)]
+    fn reduced_velocity(self, mass: f64, inertia: f64, h: Twist, left: Twist) -> Twist {
+        let y = match self {
+            Self::Ideal => return Twist { linear: vec2(left.linear.x / mass, 0.0), angular: 0.0 },
+            Self::HorizontalThrust => 0.0,
+            Self::VerticalThrust => h.linear.y,
+            Self::Translating | Self::Full => left.linear.y,
+        };
+        Twist { linear: vec2(left.linear.x, y) / mass, angular: left.angular / inertia }
     }
 
     /// Whether the arm turns with the UAV.

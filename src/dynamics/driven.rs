@@ -175,7 +175,7 @@ impl<const N: usize> Dynamics<N> {
     ) -> SVector<f64, N> {
         let Situation { state, turn, node } = situation;
         let (vehicle, posture, roll_rate) = (&self.vehicle, &node.posture, state.velocity.z);
-        let (flow, scene) = (situation.flow(self.base), Self::scene(situation));
+        let (flow, scene) = (situation.flow(self.base), Self::scene(&situation.state));
         let rate = self.law_at(&flow, node, situation.base(), load, &scene);
         let force = Twist {
             linear: turn.undo(vec2(rate[3], rate[4])),

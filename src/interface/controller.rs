@@ -8,6 +8,7 @@ use crate::controller::{self, Inputs, Outputs, Rates};
 use crate::defaults::default_parameters;
 use crate::error::Error;
 use crate::fmi2::{CommunicationStep, Model};
+use crate::options::Choice;
 use crate::parameters::{self, Parameters, Structure};
 use crate::unit;
 use crate::variables::{Bounds, Causality, Table, Variability};
@@ -177,12 +178,12 @@ fn declare_outputs(table: &mut Table<Data>, structure: Structure) {
             |d, i| &mut d.outputs.rate_command[i],
         );
     }
-    if let Some(Balancing { name, noun, units: [_, rate, ..], .. }) = Balancing::new(structure.balance) {
+    if let Some(Balancing { name, noun, moved_by, units: [_, rate, ..], .. }) = Balancing::new(structure.balance) {
         table.output().at(structure.links).initially_from(PLAN).real(
             format!("{name}.rate_command"),
             rate,
             Bounds::ANY,
-            format!("Rate for the {noun} now, after any jump; 0, except for a counterweight with least_squares"),
+            format!("Rate for the {noun} now, after any jump; 0, except with {}", moved_by.name()),
             |d, i| &mut d.outputs.rate_command[i],
         );
     }

@@ -358,7 +358,7 @@ fn declare_outputs(table: &mut Table<Data>, structure: Structure) {
             |d, i| &mut d.outputs.effort[i],
         );
     }
-    if let Some(Balancing { name, noun, place, exerted, effort, units: [position, rate, _, effort_unit] }) =
+    if let Some(Balancing { name, noun, place, exerted, effort, units: [position, rate, _, effort_unit], .. }) =
         Balancing::new(structure.balance)
     {
         table.output().at(structure.links).initially_from(BALANCE_START).real(

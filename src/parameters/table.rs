@@ -263,6 +263,11 @@ pub fn declare_controller<D: AsMut<Parameters>>(table: &mut Table<D>, structure:
             &mut d.as_mut().ik.resolution
         })
         .choice(
+            "ik.path_axes",
+            "Along which axes the end effector follows the path; horizontal: for acceleration_level",
+            |d, _| &mut d.as_mut().ik.path_axes,
+        )
+        .choice(
             "ik.moment_model",
             "What the arm is taken to feel of the base's motion, in the moment that it exerts on the UAV",
             |d, _| &mut d.as_mut().ik.moment_model,
@@ -270,7 +275,9 @@ pub fn declare_controller<D: AsMut<Parameters>>(table: &mut Table<D>, structure:
         .choice("ik.discretization", "How the interval between two plans is predicted", |d, _| {
             &mut d.as_mut().ik.discretization
         })
-        .choice("ik.hold", "How rates move between two plans", |d, _| &mut d.as_mut().ik.hold)
+        .choice("ik.hold", "How rates move between two plans; first_order for acceleration_level", |d, _| {
+            &mut d.as_mut().ik.hold
+        })
         .real(
             "payload.grasp_time",
             &unit::SECOND,

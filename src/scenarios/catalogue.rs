@@ -13,7 +13,7 @@ macro_rules! files {
 const FILES: &[(&str, &str)] = files!(
     "2.1a" "2.1b" "2.2a" "2.2b" "2.3a" "2.3b" "2.4a" "2.4b" "2.5a" "2.5b"
     "3.1a-minimum-norm" "3.1a" "3.1a-doubled-gain" "3.1b"
-    "3.2a" "3.2b" "3.2c" "3.2d" "3.2e" "3.3"
+    "3.2a" "3.2b" "3.2c" "3.2d" "3.2e" "3.3" "3.4-1" "3.4-2" "3.4-3"
     "3.5a" "3.5b"
     "3.6a" "3.6a-segment" "3.6b" "3.6b-segment" "3.6c" "3.6c-segment"
     "3.7-extended-jacobian" "3.7" "3.8a" "3.8b"

@@ -58,6 +58,12 @@ pub enum Quantity {
     CounterweightRight,
     /// Position of the counterweight at its leftmost.
     CounterweightLeft,
+    /// Largest jump of the balance element's acceleration from one communication point to the next.
+    ElementJump,
+    /// How often the balance element's acceleration changes its sign.
+    ElementSwings,
+    /// Velocity of the common centre of mass along x in the last second, either way.
+    MassDriftSpeed,
     /// Vertical force between payload and end effector at the end.
     FinalLoad,
     /// Largest distance along x between the UAV and where the controller predicts it.
@@ -83,6 +89,8 @@ enum Reading {
     Degrees,
     Radians,
     RadiansPerSecond,
+    RadiansPerSecond2,
+    Times,
     Newtons,
     NewtonMetres,
     Percent,
@@ -92,7 +100,7 @@ enum Reading {
 
 impl Quantity {
     /// Every quantity, in the order of tables.
-    pub const ALL: [Self; 32] = [
+    pub const ALL: [Self; 35] = [
         Self::FarthestRight,
         Self::FarthestLeft,
         Self::WayX,
@@ -118,6 +126,9 @@ impl Quantity {
         Self::Rate,
         Self::CounterweightRight,
         Self::CounterweightLeft,
+        Self::ElementJump,
+        Self::ElementSwings,
+        Self::MassDriftSpeed,
         Self::FinalLoad,
         Self::MissedX,
         Self::MissedY,
@@ -160,6 +171,9 @@ impl Quantity {
             Self::Rate => ("largest joint rate", Reading::RadiansPerSecond),
             Self::CounterweightRight => ("counterweight first to the right by", Reading::Millimetres),
             Self::CounterweightLeft => ("counterweight leftmost at", Reading::Millimetres),
+            Self::ElementJump => ("acceleration of the balance element jumps by", Reading::RadiansPerSecond2),
+            Self::ElementSwings => ("acceleration of the balance element turns round", Reading::Times),
+            Self::MassDriftSpeed => ("common centre of mass drifts in the end with", Reading::MillimetresPerSecond),
             Self::FinalLoad => ("vertical force on the payload at the end", Reading::Newtons),
             Self::MissedX => ("prediction misses the UAV's x by", Reading::Metres),
             Self::MissedY => ("prediction misses the UAV's y by", Reading::Metres),
@@ -189,7 +203,7 @@ impl Quantity {
             Self::FarthestLeft => largest("base.x", -1.0),
             Self::WayX => size("base.x"),
             Self::FinalX => last("base.x"),
-            Self::DriftSpeed => drift_speed(recording),
+            Self::DriftSpeed => drift_speed(recording, "base.x"),
             Self::Sinking => largest("base.y", -1.0),
             Self::WayY => size("base.y"),
             Self::Roll => size("base.roll"),
@@ -230,6 +244,12 @@ impl Quantity {
                 peak(position.iter().take(leftmost + 1).copied())
             }
             Self::CounterweightLeft => -largest("counterweight.position", -1.0),
+            Self::ElementJump => {
+                let acceleration = recording.column("balance_element.acceleration_command");
+                peak(acceleration.windows(2).map(|pair| (pair[1] - pair[0]).abs()))
+            }
+            Self::ElementSwings => swings(recording.column("balance_element.acceleration_command")),
+            Self::MassDriftSpeed => drift_speed(recording, "center_of_mass.x"),
             Self::FinalLoad => last("payload.force_y").abs(),
             Self::MissedX => apart("base.x", "predicted.base.x"),
             Self::MissedY => apart("base.y", "predicted.base.y"),
@@ -276,9 +296,17 @@ fn peak_between(recording: &Recording, name: &str, shares: [f64; 2]) -> f64 {
     peak(recording.column(name).get(from..=to).unwrap_or_default().iter().map(|value| value.abs()))
 }
 
-/// Mean velocity of the UAV along x in the last second, or not a number if the run is shorter.
-fn drift_speed(recording: &Recording) -> f64 {
-    let (times, x) = (recording.times(), recording.column("base.x"));
+/// How often numbers change their sign.
+fn swings(values: &[f64]) -> f64 {
+    if values.is_empty() {
+        return f64::NAN;
+    }
+    values.windows(2).filter(|pair| pair[0] * pair[1] < 0.0).map(|_| 1.0).sum()
+}
+
+/// Mean velocity of what is at `name` along x in the last second, or not a number if the run is shorter.
+fn drift_speed(recording: &Recording, name: &str) -> f64 {
+    let (times, x) = (recording.times(), recording.column(name));
     let (Some(end), Some(last)) = (times.last(), x.last()) else { return f64::NAN };
     match recording.row_at(end - 1.0) {
         Some(row) if row < x.len() => ((last - x[row]) / (end - times[row])).abs(),
@@ -315,6 +343,8 @@ impl fmt::Display for Shown {
             Reading::Degrees => readable(f, value.to_degrees(), "°"),
             Reading::Radians => readable(f, value, "rad"),
             Reading::RadiansPerSecond => readable(f, value, "rad/s"),
+            Reading::RadiansPerSecond2 => readable(f, value, "rad/s2"),
+            Reading::Times => write!(f, "{value} times"),
             Reading::Newtons => readable(f, value, "N"),
             Reading::NewtonMetres => readable(f, value, "N m"),
             Reading::Percent => readable(f, 100.0 * value, "%"),

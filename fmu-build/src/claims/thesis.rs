@@ -120,6 +120,18 @@ pub const REDUNDANCY: &[Claim] = &[
     ratio("3.3", Quantity::Moment, "3.2c", "ten times smaller", [0.0, 0.15]),
     ratio("3.3", Quantity::Roll, "3.2c", "ten times smaller", [0.0, 0.15]),
     ratio("3.3", Quantity::WayX, "3.2c", "not as much smaller", [0.5, 10.0]),
+    claim("3.4-1", Quantity::ErrorX, "good results (kind)", [0.0, 0.1 * MM]),
+    claim("3.4-1", Quantity::ElementSwings, "no oscillations", [0.0, 10.0]),
+    claim("3.4-1", Quantity::ElementJump, "jumps at the grasp", [10.0, 40.0]),
+    ratio("3.4-2", Quantity::ElementSwings, "3.4-1", "oscillates", [5.0, f64::INFINITY]),
+    ratio("3.4-2", Quantity::ErrorX, "3.4-1", "the same order", order(1.0)),
+    claim("3.4-3", Quantity::ErrorX, "grows from the grasp on", [0.01 * MM, 5.0 * MM])
+        .but(EXACT, "no error is left: each plan starts from where the grasp has brought the system"),
+    claim("3.4-3", Quantity::MassDriftSpeed, "centre of mass drifts", [0.01 * MM, f64::INFINITY]).but(
+        BOTH,
+        "the payload is taken over with the momentum of the whole system kept, so that the centre of mass stays; the \
+         mass that jumps in (3.22) is what drifts in the thesis",
+    ),
     claim("3.5a", Quantity::ErrorX, "acceptable", [0.0, 1.0 * MM]),
     claim("3.5a", Quantity::ErrorY, "above 10 mm (kind)", [10.0 * MM, 50.0 * MM])
         .but(BOTH, "grows with the accelerations of the path: 7 mm with sides of 1.2 s instead of 3 s"),

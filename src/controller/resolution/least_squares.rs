@@ -23,9 +23,9 @@ const RIDGE: f64 = 1e-14;
 /// Mean moments below this are none \[N m\].
 const NO_MOMENT: f64 = 1e-9;
 
-impl<const N: usize> Resolver<N> {
+impl Resolver {
     /// The rates of the joints; that of what balances the arm is given (3.29).
-    pub(super) fn least_squares(&self, problem: &Problem<'_, N>) -> Resolved<N> {
+    pub(super) fn least_squares<const N: usize>(&self, problem: &Problem<'_, N>) -> Resolved<N> {
         let &Problem { mut path, mut velocity, mut moment, allowed, .. } = problem;
         let mut rate = SVector::zeros();
         for i in self.links..N {

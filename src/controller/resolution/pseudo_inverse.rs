@@ -10,7 +10,8 @@ use nalgebra::{SMatrix, SVector};
 
 use super::Task;
 use crate::controller::Status;
-use crate::planar::{Vec2, cross, perp};
+use crate::parameters::MAX_COORDINATES;
+use crate::planar::{Vec2, cross, perp, vec2};
 
 /// Singular values of the path below this share of the arm's reach are damped.
 pub const PATH_THRESHOLD: f64 = 2e-2;
@@ -42,16 +43,41 @@ impl<const N: usize> PseudoInverse<N> {
     }
 }
 
-/// The Gram matrix J J^T of a path by its eigenvalues and its first eigenvector.
-pub(super) struct Spectrum {
+impl PseudoInverse<MAX_COORDINATES> {
+    /// Of the first `N` coordinates, where the others have been added by [`padded`].
+    pub(super) fn of_the_first<const N: usize>(&self) -> PseudoInverse<N> {
+        let Self { rate, min_singular_value, path_damped, task_damped } = *self;
+        PseudoInverse { rate: SVector::from_fn(|i, _| rate[i]), min_singular_value, path_damped, task_damped }
+    }
+}
+
+/// The rows of `path` with more coordinates, which move nothing.
+pub(super) fn padded<const N: usize>(path: &SMatrix<f64, 2, N>) -> SMatrix<f64, 2, MAX_COORDINATES> {
+    SMatrix::from_fn(|row, i| if i < N { path[(row, i)] } else { 0.0 })
+}
+
+/// Rates, or a row, with more coordinates.
+pub(super) fn padded_vector<const N: usize>(vector: &SVector<f64, N>) -> SVector<f64, MAX_COORDINATES> {
+    SVector::from_fn(|i, _| if i < N { vector[i] } else { 0.0 })
+}
+
+/// A task with more coordinates.
+pub(super) fn padded_task<const N: usize>(task: &Task<N>) -> Task<MAX_COORDINATES> {
+    Task { row: padded_vector(&task.row), value: task.value }
+}
+
+/// The Gram matrix J J^T of a path: its entries, its determinant and its eigenvalues.
+pub(super) struct Gram {
+    xx: f64,
+    xy: f64,
+    yy: f64,
+    determinant: f64,
     largest: f64,
     /// Square of the smallest singular value of J.
     pub smallest: f64,
-    /// The direction in which the arm moves most easily.
-    strong: Vec2,
 }
 
-impl Spectrum {
+impl Gram {
     pub fn new<const N: usize>(path: &SMatrix<f64, 2, N>) -> Self {
         let (x, y) = (path.row(0), path.row(1));
         let (xx, xy, yy) = (x.norm_squared(), x.dot(&y), y.norm_squared());
@@ -64,8 +90,14 @@ impl Spectrum {
         }
         let largest = 0.5 * (xx + yy) + (0.25 * (xx - yy) * (xx - yy) + xy * xy).sqrt();
         let smallest = if largest > 0.0 { determinant / largest } else { 0.0 };
+        Self { xx, xy, yy, determinant, largest, smallest }
+    }
+
+    /// The direction in which the arm moves most easily.
+    fn strong(&self) -> Vec2 {
+        let &Self { xx, xy, yy, largest, .. } = self;
         let strong = if xx > yy { Vec2::new(largest - yy, xy) } else { Vec2::new(xy, largest - xx) };
-        Self { largest, smallest, strong: strong.try_normalize(f64::MIN_POSITIVE).unwrap_or_else(Vec2::x) }
+        strong.try_normalize(f64::MIN_POSITIVE).unwrap_or_else(Vec2::x)
     }
 }
 
@@ -81,14 +113,63 @@ pub fn resolve<const N: usize>(
     task: Option<&Task<N>>,
     reach: f64,
 ) -> PseudoInverse<N> {
+    let gram = Gram::new(path);
+    let threshold = PATH_THRESHOLD * reach;
+    // Where nothing is damped, without directions and their square roots: a third of the time.
+    if gram.smallest >= threshold * threshold
+        && let Some(rate) = undamped(path, &gram, velocity, preferred, task)
+    {
+        let min_singular_value = gram.smallest.sqrt();
+        return PseudoInverse { rate, min_singular_value, path_damped: false, task_damped: false };
+    }
+    let task = task.map(padded_task);
+    damped(&padded(path), velocity, &padded_vector(preferred), task.as_ref(), reach).of_the_first()
+}
+
+/// [`resolve`] far from singular configurations; none if that of the task is not far.
+#[inline]
+fn undamped<const N: usize>(
+    path: &SMatrix<f64, 2, N>,
+    gram: &Gram,
+    velocity: Vec2,
+    preferred: &SVector<f64, N>,
+    task: Option<&Task<N>>,
+) -> Option<SVector<f64, N>> {
+    let &Gram { xx, xy, yy, determinant, .. } = gram;
+    let inverse = 1.0 / determinant;
+    // J^T (J J^T)^-1 w.
+    let lift = |w: Vec2| path.transpose() * (vec2(yy * w.x - xy * w.y, xx * w.y - xy * w.x) * inverse);
+    let mut rate = preferred + lift(velocity - path * preferred);
+    if let Some(task) = task {
+        let free = task.row - lift(path * task.row);
+        let left = free.norm_squared();
+        if left < TASK_THRESHOLD * TASK_THRESHOLD * task.row.norm_squared() || left < f64::MIN_POSITIVE {
+            return None;
+        }
+        rate += free * ((task.value - task.row.dot(&rate)) / left);
+    }
+    Some(rate)
+}
+
+/// [`resolve`] wherever the arm is, for the largest number of coordinates: the library holds one copy.
+#[cold]
+#[inline(never)]
+fn damped(
+    path: &SMatrix<f64, 2, MAX_COORDINATES>,
+    velocity: Vec2,
+    preferred: &SVector<f64, MAX_COORDINATES>,
+    task: Option<&Task<MAX_COORDINATES>>,
+    reach: f64,
+) -> PseudoInverse<MAX_COORDINATES> {
     // The directions in which the arm moves easily and hardly: each is damped on its own.
-    let Spectrum { largest, smallest, strong } = Spectrum::new(path);
+    let gram = Gram::new(path);
+    let strong = gram.strong();
     let weak = perp(strong);
     let threshold = PATH_THRESHOLD * reach;
-    let min_singular_value = smallest.sqrt();
+    let min_singular_value = gram.smallest.sqrt();
     let damping_weak = damping(min_singular_value, threshold);
     let (gain_strong, gain_weak) =
-        (1.0 / (largest + damping(largest.sqrt(), threshold)), 1.0 / (smallest + damping_weak));
+        (1.0 / (gram.largest + damping(gram.largest.sqrt(), threshold)), 1.0 / (gram.smallest + damping_weak));
     // J^T (J J^T + damping)^-1 w.
     let lift =
         |w: Vec2| path.transpose() * (strong * (strong.dot(&w) * gain_strong) + weak * (weak.dot(&w) * gain_weak));

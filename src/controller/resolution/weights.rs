@@ -3,33 +3,30 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::pseudo_inverse::{Spectrum, resolve};
+use super::pseudo_inverse::{Gram, padded, padded_task, padded_vector, resolve};
 use super::{PseudoInverse, Task};
-use crate::parameters::Parameters;
+use crate::parameters::{Joint, MAX_COORDINATES};
 use crate::planar::Vec2;
 
-/// The weights of the joints' rates.
-#[derive(Debug, Clone)]
-pub(super) struct Weights<const N: usize> {
+/// The weights of the joints' rates; what balances the arm has none.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Weights {
     /// Rates per rate of equal weight, about 1: only ratios of weights count. None: all weights are equal.
-    scale: Option<SVector<f64, N>>,
+    scale: Option<SVector<f64, MAX_COORDINATES>>,
 }
 
-impl<const N: usize> Weights<N> {
-    /// The weights of the first `links` coordinates; the others have none.
-    pub fn new(parameters: &Parameters, links: usize) -> Self {
-        let weights = || parameters.joints.iter().take(links).map(|joint| joint.weight);
-        if weights().all(|weight| weight == parameters.joints[0].weight) {
-            return Self { scale: None };
-        }
-        #[allow(clippy::cast_precision_loss)] // a few links
-        let mean = weights().map(|weight| 1.0 / weight).sum::<f64>() / links as f64;
-        let scale = |i: usize| if i < links { (1.0 / (parameters.joints[i].weight * mean)).sqrt() } else { 1.0 };
-        Self { scale: Some(SVector::from_fn(|i, _| scale(i))) }
+impl Weights {
+    /// All weights are equal.
+    pub const EQUAL: Self = Self { scale: None };
+
+    /// Takes over the weights of `joints`.
+    pub fn tune(&mut self, joints: &[Joint]) {
+        self.scale =
+            if joints.iter().all(|joint| joint.weight == joints[0].weight) { None } else { Some(scale(joints)) };
     }
 
     /// [`resolve`] in the weighted norm.
-    pub fn resolve(
+    pub fn resolve<const N: usize>(
         &self,
         path: &SMatrix<f64, 2, N>,
         velocity: Vec2,
@@ -40,16 +37,38 @@ impl<const N: usize> Weights<N> {
         let Some(scale) = &self.scale else {
             return resolve(path, velocity, preferred, task, reach);
         };
-        let mut scaled = *path;
-        for (mut column, scale) in scaled.column_iter_mut().zip(scale.iter()) {
-            column *= *scale;
-        }
-        let task = task.map(|task| Task { row: task.row.component_mul(scale), ..*task });
-        let found = resolve(&scaled, velocity, &preferred.component_div(scale), task.as_ref(), reach);
-        PseudoInverse {
-            rate: found.rate.component_mul(scale),
-            min_singular_value: Spectrum::new(path).smallest.sqrt(),
-            ..found
-        }
+        let task = task.map(padded_task);
+        weighted(scale, &padded(path), velocity, &padded_vector(preferred), task.as_ref(), reach).of_the_first()
+    }
+}
+
+#[cold]
+#[inline(never)]
+fn scale(joints: &[Joint]) -> SVector<f64, MAX_COORDINATES> {
+    #[allow(clippy::cast_precision_loss)] // a few links
+    let mean = joints.iter().map(|joint| 1.0 / joint.weight).sum::<f64>() / joints.len() as f64;
+    SVector::from_fn(|i, _| joints.get(i).map_or(1.0, |joint| (1.0 / (joint.weight * mean)).sqrt()))
+}
+
+/// For the largest number of coordinates: the library holds one copy.
+#[inline(never)]
+fn weighted(
+    scale: &SVector<f64, MAX_COORDINATES>,
+    path: &SMatrix<f64, 2, MAX_COORDINATES>,
+    velocity: Vec2,
+    preferred: &SVector<f64, MAX_COORDINATES>,
+    task: Option<&Task<MAX_COORDINATES>>,
+    reach: f64,
+) -> PseudoInverse<MAX_COORDINATES> {
+    let mut scaled = *path;
+    for (mut column, scale) in scaled.column_iter_mut().zip(scale.iter()) {
+        column *= *scale;
+    }
+    let task = task.map(|task| Task { row: task.row.component_mul(scale), ..*task });
+    let found = resolve(&scaled, velocity, &preferred.component_div(scale), task.as_ref(), reach);
+    PseudoInverse {
+        rate: found.rate.component_mul(scale),
+        min_singular_value: Gram::new(path).smallest.sqrt(),
+        ..found
     }
 }

@@ -1,0 +1,61 @@
+//! One explicit step from beginning to end, as the thesis makes it (appendix A.1): momentum by Euler's method,
+//! velocities by the matrices of the beginning.
+
+use nalgebra::{SVector, Vector3};
+
+use super::advance::refreshed;
+use super::{Dynamics, Loads, Situation, State, in_inertial_frame};
+use crate::momentum::Twist;
+use crate::planar::{Turn, vec2};
+
+impl<const N: usize> Dynamics<N> {
+    /// Makes `state` the state `here`, but with the momentum and the integrals after a step of length `size` from
+    /// time `t`; how much angular momentum what the UAV carries gains if no moment is exerted on the UAV \[N m s\].
+    ///
+    /// Loads are those at the beginning, as seen with the velocities just before it. Takes a sample of the autopilot
+    /// if it is due.
+    pub fn begin_explicit(&self, here: &Situation<N>, t: f64, size: f64, state: &mut State<N>) -> f64 {
+        let (load, node) = (&Loads::CALM.begin, &here.node);
+        *state = here.state;
+        self.sample(state, load, t);
+        let flow = here.flow(self.base);
+        state.contact = self.touches(&flow, node, state.held);
+        let scene = Self::scene(state);
+        let rate = self.law_at(&flow, node, here.base(), load, &scene);
+        state.momentum += Vector3::new(rate[3], rate[4], rate[5]) * size;
+        state.integrals += vec2(rate[6], rate[7]) * size;
+        self.carried_load(node, &self.carrier(&flow, &rate), load) * size
+    }
+
+    /// Brings `end`, whose state has begun the step in `here`, to its end: after the time `size` \[s\] from time `t`
+    /// with the velocity `base` of the UAV (axes of the UAV frame), at the rates `rate`, over the way `way` of the
+    /// coordinates.
+    pub fn end_explicit(
+        &self,
+        here: &Situation<N>,
+        base: Twist,
+        rate: &SVector<f64, N>,
+        way: &SVector<f64, N>,
+        [t, size]: [f64; 2],
+        end: &mut Situation<N>,
+    ) {
+        let state = &mut end.state;
+        state.velocity = in_inertial_frame(here.turn, base);
+        state.rate = *rate;
+        state.pose += state.velocity * size;
+        state.position += way;
+        if self.on_carriage() {
+            let matrix = &here.node.matrix;
+            let h = matrix.of_base(base) + matrix.of_rates(rate);
+            (state.momentum.y, state.momentum.z) = (h.linear.y, h.angular);
+        }
+        if refreshed(t) != refreshed(t + size) {
+            *end = self.situation(*state);
+            return;
+        }
+        // Small turns instead of sines spare a third of the step.
+        let turned = Turn::by_small(state.velocity.z * size);
+        end.turn = if self.base.turns_arm() { here.turn.then(turned) } else { Turn::NONE };
+        end.node.follow(&self.vehicle, &here.node, way, state.held, *rate);
+    }
+}
