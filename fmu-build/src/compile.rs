@@ -2,6 +2,7 @@
 
 use std::env;
 use std::ffi::{OsStr, OsString};
+use std::fs;
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
@@ -122,13 +123,14 @@ fn flags(workspace: &Path) -> Result<OsString> {
     }
     flags.push(SMALL);
     // Where several prefixes fit, the last one counts: a cargo home inside the workspace keeps its own name.
-    let prefixes = [
-        (Some(workspace.to_owned()), "/uam"),
-        (cargo_home(), "/cargo"),
-        (Some(sysroot(workspace)?.join("lib/rustlib/src/rust")), "/rust"),
-    ];
+    let mut prefixes = vec![(workspace.to_owned(), "/uam")];
+    if let Some(home) = cargo_home() {
+        let registries = registries(&home);
+        prefixes.push((home, "/cargo"));
+        prefixes.extend(registries.into_iter().map(|registry| (registry, "/cargo")));
+    }
+    prefixes.push((sysroot(workspace)?.join("lib/rustlib/src/rust"), "/rust"));
     for (prefix, name) in prefixes {
-        let Some(prefix) = prefix else { continue };
         flags.push(FLAG_SEPARATOR);
         flags.push("--remap-path-prefix=");
         flags.push(prefix);
@@ -147,6 +149,14 @@ fn given_flags() -> OsString {
 
 fn cargo_home() -> Option<PathBuf> {
     env::var_os("CARGO_HOME").map(PathBuf::from).or_else(|| env::home_dir().map(|home| home.join(".cargo")))
+}
+
+/// Where cargo unpacks packages: a folder for each registry, so that a mirror gives it another name.
+fn registries(home: &Path) -> Vec<PathBuf> {
+    let folders = fs::read_dir(home.join("registry/src")).into_iter().flatten().flatten();
+    let mut folders: Vec<_> = folders.map(|entry| entry.path()).collect();
+    folders.sort();
+    folders
 }
 
 fn sysroot(workspace: &Path) -> Result<PathBuf> {

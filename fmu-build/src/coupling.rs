@@ -137,8 +137,8 @@ impl Coupling {
     /// If the units have other parameters, or do not accept a value.
     pub fn configure(&mut self, structure: uam::Structure, parameters: &uam::Parameters) -> Result<(), fmu::Error> {
         use uam::interface::{controller::ControllerUnit, plant::PlantUnit};
-        settings::apply(&mut self.controller, &settings::named_values::<ControllerUnit>(structure, parameters))?;
-        settings::apply(&mut self.plant, &settings::named_values::<PlantUnit>(structure, parameters))
+        self.controller.set_values(&settings::named_values::<ControllerUnit>(structure, parameters))?;
+        self.plant.set_values(&settings::named_values::<PlantUnit>(structure, parameters))
     }
 
     /// Initializes both units and runs them to the end of the schedule.

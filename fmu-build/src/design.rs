@@ -1,12 +1,11 @@
 //! What is chosen when a pair of units is built.
 
+use uam::defaults;
 use uam::fmi2::{Identity, Model, Naming};
 use uam::interface::controller::ControllerUnit;
 use uam::interface::plant::PlantUnit;
 use uam::scenarios::{self, Scenario};
 use uam::{Parameters, Structure};
-
-use crate::metadata;
 
 /// Everything in which one pair of units differs from another.
 #[derive(Debug, Clone)]
@@ -30,13 +29,18 @@ pub struct Experiment {
     pub step_size: f64,
 }
 
+impl Experiment {
+    /// That which belongs to the library's own start values.
+    pub const PICK_UP: Self = Self { stop_time: defaults::PICK_UP_DURATION, step_size: defaults::THESIS_STEP };
+}
+
 impl From<Structure> for Design {
     fn from(structure: Structure) -> Self {
         Self {
             structure,
             naming: Naming::Structured,
             parameters: scenarios::default_parameters(structure),
-            experiment: metadata::EXPERIMENT,
+            experiment: Experiment::PICK_UP,
         }
     }
 }

@@ -3,13 +3,12 @@
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use uam::fmi2::Naming;
 
-use crate::metadata;
 use crate::units::Unit;
+use crate::{metadata, text};
 
 mod figure;
 mod markdown;
 mod tables;
-pub mod text;
 
 const STYLE: &str = include_str!("documentation/style.css");
 

@@ -30,6 +30,7 @@ pub mod run;
 pub mod settings;
 pub mod ssp;
 pub mod study;
+pub mod text;
 pub mod units;
 mod universal;
 pub mod workspace;

@@ -1,8 +1,4 @@
-//! Who made the files, and when a simulation of them begins and ends: written into every product.
-
-use uam::defaults;
-
-use crate::design::Experiment;
+//! Who made the files, and when a simulation of them begins: written into every product.
 
 /// Author and copyright holder.
 pub const AUTHOR: &str = "The uam authors";
@@ -17,6 +13,3 @@ pub const GENERATION_TOOL: &str = concat!(env!("CARGO_PKG_NAME"), " ", env!("CAR
 
 /// Beginning of every experiment \[s\].
 pub const START_TIME: f64 = 0.0;
-/// The experiment that belongs to the library's own start values.
-pub const EXPERIMENT: Experiment =
-    Experiment { stop_time: defaults::PICK_UP_DURATION, step_size: defaults::THESIS_STEP };

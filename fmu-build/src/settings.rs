@@ -5,7 +5,7 @@ use uam::variables::{Causality, Kind};
 use uam::{Parameters, Structure};
 
 use crate::design::Design;
-use crate::fmu::{Error, Instance, Selection, Value};
+use crate::fmu::Value;
 use crate::interface::{Interface, Variable};
 
 /// Every parameter of the unit `M` with its value in `parameters`, in the order of the unit's table.
@@ -47,21 +47,6 @@ where
         .filter(|(own, known)| own.causality == Causality::Parameter && !own.value.starts_like(&known.value))
         .map(|(own, _)| own)
         .collect()
-}
-
-/// Sets variables of an instance by name, all at once.
-///
-/// # Errors
-/// If the unit does not have one of them, it has another type, or the unit does not accept its value.
-pub fn apply(instance: &mut Instance, settings: &[(String, Value)]) -> Result<(), Error> {
-    let selection = Selection::new(instance.description(), settings.iter().map(|(name, _)| name.as_str()))?;
-    let mut values = selection.values();
-    for (index, (name, value)) in settings.iter().enumerate() {
-        if !selection.put(&mut values, index, *value) {
-            return Err(Error::mismatch(instance.description(), name, *value));
-        }
-    }
-    instance.set(&selection, &values)
 }
 
 #[cfg(test)]

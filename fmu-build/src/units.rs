@@ -5,8 +5,8 @@ use uam::interface::controller::ControllerUnit;
 use uam::interface::plant::PlantUnit;
 
 use crate::design::Design;
-use crate::documentation::text;
 use crate::interface::Interface;
+use crate::text;
 
 /// A unit with its picture and its text for users.
 pub struct Unit {

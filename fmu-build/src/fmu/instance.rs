@@ -181,7 +181,22 @@ impl Instance {
     /// # Errors
     /// If there is none of this name, it has another type, or the unit refuses.
     pub fn set_value(&mut self, name: &str, value: Value) -> Result<(), Error> {
-        crate::settings::apply(self, &[(name.to_owned(), value)])
+        self.set_values(&[(name.to_owned(), value)])
+    }
+
+    /// Sets variables by name, all at once.
+    ///
+    /// # Errors
+    /// If there is none of one of these names, it has another type, or the unit refuses a value.
+    pub fn set_values(&mut self, settings: &[(String, Value)]) -> Result<(), Error> {
+        let selection = Selection::new(self.description(), settings.iter().map(|(name, _)| name.as_str()))?;
+        let mut values = selection.values();
+        for (index, (name, value)) in settings.iter().enumerate() {
+            if !selection.put(&mut values, index, *value) {
+                return Err(Error::mismatch(self.description(), name, *value));
+            }
+        }
+        self.set(&selection, &values)
     }
 
     fn functions(&self) -> &c::Functions {
