@@ -17,6 +17,7 @@ Examples:
   fmu-build build --scenario mine.toml      FMUs that start with the numbers of your own vehicle
   fmu-build thesis                          every statement of the thesis beside what comes out
   fmu-build reach                           how far the arm reaches with a counterweight
+  fmu-build budget                          which communication step for which error
   fmu-build list                            the simulations that `simulate` knows
   fmu-build simulate 4.3a                   one simulation, with its own report
   fmu-build simulate 4.3b --step 0.01 --stop 10 --discretization euler
@@ -65,6 +66,12 @@ pub enum Command {
     /// is more than a millimetre off its reference at any communication point, and then narrows this down to a
     /// millimetre.
     Reach,
+    /// Find out which communication step leaves which error
+    ///
+    /// Runs the pick-up with steps from 0.1 ms to 50 ms, both discretizations and holds, three orders in which a
+    /// master may step the units, and autopilots that are continuous or sampled. Prints the largest errors of the end
+    /// effector and of the predicted base with the observed orders, and writes budget.html with figures.
+    Budget,
     /// List the simulations that `simulate` knows, one per line
     List,
     /// Print a simulation as a TOML file, to be changed and given to `simulate`

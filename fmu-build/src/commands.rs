@@ -13,6 +13,7 @@ use uam::scenarios::{self, Extent, Scenario};
 
 use crate::cli::{Arguments, Command};
 
+mod budget;
 mod build;
 mod export;
 mod pick_up;
@@ -29,6 +30,7 @@ pub fn execute(arguments: &Arguments) -> Result<()> {
         Some(Command::Simulate(simulation)) => simulate::execute(simulation, out),
         Some(Command::Thesis) => thesis::execute(out),
         Some(Command::Reach) => reach::execute(out),
+        Some(Command::Budget) => budget::execute(out),
         Some(Command::List) => {
             for scenario in scenarios::catalogue()? {
                 println!("{:<24} {}", scenario.id, scenario.title);

@@ -17,6 +17,8 @@ pub enum Order {
     Parallel,
     /// The plant steps, and the controller steps with the plant's new outputs (Gauss-Seidel).
     PlantFirst,
+    /// The controller steps, and the plant steps with the controller's new commands: one step too early.
+    ControllerFirst,
 }
 
 /// A coupling that cannot be set up or cannot go on.
@@ -170,6 +172,11 @@ impl Coupling {
 
     fn step(&mut self, time: f64, size: f64, order: Order) -> Result<(), fmu::Error> {
         self.exchange()?;
+        if order == Order::ControllerFirst {
+            self.controller.do_step(time, size)?;
+            self.commands.carry(&mut self.controller, &mut self.plant)?;
+            return self.plant.do_step(time, size);
+        }
         self.plant.do_step(time, size)?;
         if order == Order::PlantFirst {
             self.measurements.carry(&mut self.plant, &mut self.controller)?;

@@ -5,9 +5,10 @@
 //! and people read of it; [`compile`] makes the libraries; [`package`] puts all together.
 //!
 //! [`fmu`] loads units as any master would; [`coupling`] is such a master; [`run`] puts a scenario through
-//! it; [`claims`] sets the results beside the thesis, and [`report`] draws them.
+//! it; [`claims`] sets the results beside the thesis, and [`report`] draws them; [`budget`] varies the step.
 
 pub mod archive;
+pub mod budget;
 mod build;
 pub mod claims;
 pub mod compile;

@@ -5,6 +5,7 @@ use std::path::Path;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 mod arm;
+pub mod budget;
 mod chart;
 mod decimate;
 pub mod figures;
@@ -61,28 +62,16 @@ impl Report {
     /// The page as text.
     #[must_use]
     pub fn html(&self) -> String {
-        let page = html! {
-            (DOCTYPE)
-            html lang="en" {
-                head {
-                    meta charset="utf-8";
-                    meta name="viewport" content="width=device-width, initial-scale=1";
-                    title { (self.title) }
-                    style { (PreEscaped(style::SHEET)) }
+        page(
+            &self.title,
+            &html! {
+                (self.introduction)
+                section { h2 { "What came out" } (table(&self.table)) }
+                @for figure in &self.figures {
+                    section { figure { h2 { (figure.title) } (figure.body) figcaption { (figure.caption) } } }
                 }
-                body {
-                    main {
-                        h1 { (self.title) }
-                        (self.introduction)
-                        section { h2 { "What came out" } (table(&self.table)) }
-                        @for figure in &self.figures {
-                            section { figure { h2 { (figure.title) } (figure.body) figcaption { (figure.caption) } } }
-                        }
-                    }
-                }
-            }
-        };
-        page.into_string()
+            },
+        )
     }
 
     /// Writes the page.
@@ -92,6 +81,23 @@ impl Report {
     pub fn write(&self, path: &Path) -> Result<(), Error> {
         Ok(std::fs::write(path, self.html())?)
     }
+}
+
+/// A page with a heading.
+fn page(title: &str, content: &Markup) -> String {
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                title { (title) }
+                style { (PreEscaped(style::SHEET)) }
+            }
+            body { main { h1 { (title) } (content) } }
+        }
+    };
+    page.into_string()
 }
 
 fn table(table: &Table) -> Markup {

@@ -1,4 +1,4 @@
-//! Curves over time, as SVG.
+//! Curves over time, or over another quantity, as SVG.
 
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -14,7 +14,7 @@ const BUCKETS: usize = 300;
 /// What a logarithmic axis shows for 0 and anything smaller.
 const TINY: f64 = 1e-16;
 
-/// How values are spread over the vertical axis.
+/// How values are spread over an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scale {
     /// Evenly.
@@ -23,18 +23,32 @@ pub enum Scale {
     Logarithmic,
 }
 
+/// A horizontal axis.
+#[derive(Debug, Clone, Copy)]
+pub struct Across {
+    /// Label, with unit.
+    pub axis: &'static str,
+    /// How values are spread.
+    pub scale: Scale,
+}
+
+/// Time as the horizontal axis.
+pub const TIME: Across = Across { axis: "time [s]", scale: Scale::Linear };
+
 /// A curve.
 #[derive(Debug, Clone)]
 pub struct Curve {
     /// Colour and width.
     pub paint: Paint,
-    /// Time \[s\] and value in the unit of the axis.
+    /// Time \[s\], or what else is on the horizontal axis, and value in the unit of the vertical axis.
     pub points: Vec<(f64, f64)>,
 }
 
 /// Curves over the same axes.
 #[derive(Debug, Clone)]
 pub struct Panel {
+    /// Horizontal axis.
+    pub across: Across,
     /// Label of the vertical axis, with unit.
     pub axis: String,
     /// Vertical axis.
@@ -76,7 +90,12 @@ impl Panel {
         let curves: Vec<(Paint, Vec<(f64, f64)>)> = self
             .curves
             .iter()
-            .map(|curve| (curve.paint, curve.points.iter().map(|&(t, v)| (t, self.place(v))).collect()))
+            .map(|curve| {
+                (
+                    curve.paint,
+                    curve.points.iter().map(|&(t, v)| (self.across.scale.place(t), self.scale.place(v))).collect(),
+                )
+            })
             .collect();
         let points = || curves.iter().flat_map(|(_, points)| points.iter().copied());
         let (from, to) = range(points().map(|(t, _)| t)).unwrap_or((0.0, 1.0));
@@ -100,11 +119,11 @@ impl Panel {
             .set_all_tick_mark_size(px(4))
             .x_labels(7)
             .y_labels(5)
-            .x_desc("time [s]")
+            .x_desc(self.across.axis)
             .y_desc(&self.axis)
             .label_style(font(14))
             .axis_desc_style(font(15))
-            .x_label_formatter(&|value| tick(*value, to - from, Scale::Linear))
+            .x_label_formatter(&|value| tick(*value, to - from, self.across.scale))
             .y_label_formatter(&label)
             .draw()?;
         for &(time, word) in self.marks.iter().filter(|(time, _)| (from..=to).contains(time)) {
@@ -125,11 +144,14 @@ impl Panel {
         drop(chart);
         Ok(())
     }
+}
 
-    fn place(&self, value: f64) -> f64 {
-        match self.scale {
-            Scale::Linear => value,
-            Scale::Logarithmic => value.abs().max(TINY).log10(),
+impl Scale {
+    /// Where a value is on the axis.
+    fn place(self, value: f64) -> f64 {
+        match self {
+            Self::Linear => value,
+            Self::Logarithmic => value.abs().max(TINY).log10(),
         }
     }
 }
@@ -192,7 +214,7 @@ mod tests {
             let times: Vec<f64> = (0..values.len()).map(|i| i as f64).collect();
             for scale in [Scale::Linear, Scale::Logarithmic] {
                 let curves = vec![Curve::new(paint, &times, values.iter().copied())];
-                let panel = Panel { axis: "a [m]".into(), scale, curves, marks: vec![(0.5, "grasp")] };
+                let panel = Panel { across: TIME, axis: "a [m]".into(), scale, curves, marks: vec![(0.5, "grasp")] };
                 let svg = panel.svg(500).unwrap();
                 assert!(svg.starts_with("<svg class=\"chart\" viewBox"), "{}", &svg[..200]);
                 assert!(svg.trim_end().ends_with("</svg>"));

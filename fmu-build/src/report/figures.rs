@@ -3,7 +3,7 @@
 use maud::{Markup, PreEscaped, html};
 use uam::parameters::Balance;
 
-use super::chart::{Curve, Panel, Scale};
+use super::chart::{Curve, Panel, Scale, TIME};
 use super::{Error, Series, arm};
 use crate::claims::LOST;
 
@@ -96,7 +96,13 @@ pub fn error(series: &[Series<'_>]) -> Result<Figure, Error> {
             Curve::of_peaks(series.paint, recording.times(), recording.tracking_error().into_iter())
         })
         .collect();
-    let panels = [Panel { axis: "distance [m]".to_owned(), scale: Scale::Logarithmic, curves, marks: marks(series) }];
+    let panels = [Panel {
+        across: TIME,
+        axis: "distance [m]".to_owned(),
+        scale: Scale::Logarithmic,
+        curves,
+        marks: marks(series),
+    }];
     Ok(Figure {
         topic: Topic::Error,
         title: "Error of the end effector".to_owned(),
@@ -179,6 +185,7 @@ fn panel(series: &[Series<'_>], axis: &str, column: &str, factor: f64, until: Op
         Curve::new(series.paint, recording.times(), values)
     };
     Panel {
+        across: TIME,
         axis: axis.to_owned(),
         scale: Scale::Linear,
         // The first series is the one to look at: it is drawn last, on top.

@@ -1,0 +1,41 @@
+//! The error budget of the coupling: a run for each way of running both units, and for each step.
+
+use std::path::Path;
+
+use anyhow::{Context, Result};
+use fmu_build::budget::{Curve, Errors, VARIANTS, Variant};
+use fmu_build::report;
+use fmu_build::study::on_all_cores;
+use uam::scenarios::find;
+
+use super::{Pairs, Progress, wrote};
+
+/// The pick-up with the extended Jacobian.
+const SCENARIO: &str = "4.3b";
+
+pub fn execute(out: &Path) -> Result<()> {
+    let scenario = find(SCENARIO)?;
+    let pairs = Pairs::build(out, [scenario.structure])?;
+    let pair = pairs.of(scenario.structure).with_context(|| format!("no FMUs for {}", scenario.structure))?;
+    let mut jobs: Vec<(Variant, f64)> =
+        VARIANTS.into_iter().flat_map(|variant| variant.steps().map(move |step| (variant, step))).collect();
+    // Those that take longest begin.
+    jobs.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let points = |(variant, step): &(Variant, f64)| Ok(variant.schedule(&scenario, *step)?.steps() as u64);
+    let progress = Progress::new(jobs.iter().map(points).sum::<Result<u64>>()?, "Simulating")?;
+    let errors = on_all_cores(&jobs, &|(variant, step)| variant.run(pair, &scenario, *step, &|| progress.point()));
+    progress.finish();
+    let results = jobs.iter().zip(errors).map(|(&(variant, step), errors)| Ok((variant, step, errors?)));
+    let results: Vec<(Variant, f64, Errors)> = results.collect::<Result<_>>()?;
+    let curves = VARIANTS.map(|variant| {
+        let of_this = results.iter().filter(|(found, ..)| *found == variant);
+        Curve { variant, points: of_this.map(|&(_, step, errors)| (step, errors)).collect() }
+    });
+
+    println!("{}", report::budget::text(&curves));
+    let page = out.join("budget.html");
+    std::fs::write(&page, report::budget::html(&scenario, &curves)?)
+        .with_context(|| format!("cannot write {}", page.display()))?;
+    wrote(&[page]);
+    Ok(())
+}

@@ -1,0 +1,89 @@
+//! How errors of the coupled FMUs grow with the communication step.
+
+#![allow(clippy::unwrap_used, reason = "helpers of tests may fail like tests")]
+
+mod common;
+
+use fmu_build::budget::{Errors, Pilot, VARIANTS, Variant, Watch, observed_order};
+use fmu_build::coupling::Order;
+use uam::parameters::{Discretization, Hold};
+use uam::scenarios::{Scenario, find};
+
+/// The pick-up until the payload is held and the way back has begun.
+fn scenario() -> Scenario {
+    Scenario { duration: 4.0, ..find("4.3b").unwrap() }
+}
+
+fn errors<const N: usize>(variant: &Variant, steps: [f64; N]) -> [Errors; N] {
+    let (pair, scenario) = (common::pair(), scenario());
+    steps.map(|step| variant.run(&pair, &scenario, step, &|| {}).unwrap())
+}
+
+/// Observed order of an error.
+fn order(variant: &Variant, steps: [f64; 3], of: fn(&Errors) -> f64) -> f64 {
+    let points: Vec<(f64, f64)> = steps.into_iter().zip(errors(variant, steps).iter().map(of)).collect();
+    observed_order(&points).unwrap_or_else(|| panic!("{points:?} shows no order"))
+}
+
+const EXACT: Variant = Variant {
+    discretization: Discretization::Exact,
+    hold: Hold::ZeroOrder,
+    order: Order::Parallel,
+    pilot: Pilot::Continuous,
+    watch: Watch::Samples,
+};
+const EULER: Variant = Variant { discretization: Discretization::Euler, ..EXACT };
+
+#[test]
+fn the_step_of_the_thesis_is_of_order_one() {
+    let steps = [5e-4, 1e-3, 2e-3];
+    for of in [|errors: &Errors| errors.end_effector, |errors: &Errors| errors.base] {
+        let order = order(&EULER, steps, of);
+        assert!((order - 1.0).abs() < 0.15, "order {order}");
+    }
+}
+
+#[test]
+fn an_exact_step_is_exact_at_the_samples() {
+    for hold in [Hold::ZeroOrder, Hold::FirstOrder] {
+        let [fine, coarse] = errors(&Variant { hold, ..EXACT }, [1e-3, 1e-2]);
+        assert!(fine.end_effector <= 1e-9 && coarse.end_effector <= 5e-7, "{hold:?}: {fine:?} {coarse:?}");
+        assert!(fine.base <= 1e-10 && coarse.base <= 1e-10, "{hold:?}: {fine:?} {coarse:?}");
+    }
+}
+
+/// Between two points of the path, constant rates cut the corner by path'' T^2 / 8; ramps that have the right
+/// velocities at both ends leave path'''' T^4 / 384, less what the jumps of acceleration of the path's ramps take.
+#[test]
+fn between_the_samples_the_hold_decides() {
+    for (hold, expected) in [(Hold::ZeroOrder, 2.0), (Hold::FirstOrder, 3.0)] {
+        let variant = Variant { hold, watch: Watch::Between, ..EXACT };
+        let order = order(&variant, [5e-3, 1e-2, 2e-2], |errors| errors.end_effector);
+        assert!((order - expected).abs() < 0.2, "{hold:?}: order {order}");
+    }
+}
+
+#[test]
+fn a_controller_that_steps_first_is_a_step_ahead() {
+    let variant = Variant { order: Order::ControllerFirst, ..EXACT };
+    let order = order(&variant, [5e-4, 1e-3, 2e-3], |errors| errors.end_effector);
+    assert!((order - 1.0).abs() < 0.1, "order {order}");
+    // The plant first is the same as both at once, since nothing is measured.
+    let [parallel] = errors(&EXACT, [1e-3]);
+    let [plant_first] = errors(&Variant { order: Order::PlantFirst, ..EXACT }, [1e-3]);
+    assert_eq!(parallel, plant_first);
+}
+
+#[test]
+fn a_sampled_autopilot_costs_nothing_if_the_controller_knows() {
+    let [known] = errors(&Variant { pilot: Pilot::Sampled, ..EXACT }, [1e-3]);
+    let [unknown] = errors(&Variant { pilot: Pilot::SampledUnknown, ..EXACT }, [1e-3]);
+    assert!(known.end_effector <= 1e-9, "{known:?}");
+    assert!(unknown.end_effector >= 1e-5, "{unknown:?}");
+}
+
+#[test]
+fn every_variant_has_its_own_name() {
+    let names: std::collections::HashSet<String> = VARIANTS.iter().map(Variant::name).collect();
+    assert_eq!(names.len(), VARIANTS.len());
+}
