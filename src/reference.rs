@@ -157,8 +157,12 @@ impl Reference {
         let mut target = Target::AT_REST;
         match self.kind {
             ReferenceKind::Path => {
-                for leg in &self.legs {
+                for leg in self.legs.iter().filter(|leg| leg.duration != 0.0 && leg.start < t) {
                     let way = vec2(leg.dx, leg.dy);
+                    if t - leg.start >= leg.duration {
+                        target.displacement += way;
+                        continue;
+                    }
                     let [share, rate, acceleration] = leg.progress(t);
                     target.displacement += way * share;
                     target.velocity += way * rate;

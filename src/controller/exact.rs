@@ -77,6 +77,13 @@ impl<const N: usize> Outset<N> {
                 problem.velocity = turn.undo(target.velocity) - response.end_effector_free;
             }
             let resolved = self.resolver.solve(&self.dynamics.vehicle, &problem);
+            if iteration > 0 && resolved.status != Status::Ok && resolved.status == plan.status && !ramped {
+                // The path is given up in part: whether the rates still change says when it is over.
+                let change = (resolved.rate - plan.motion.rate).norm() * horizon * self.resolver.reach;
+                if change <= ON_REFERENCE {
+                    return Ok(plan);
+                }
+            }
             let motion = if ramped && resolved.status == Status::Ok {
                 self.ramp(&Problem { velocity, ..problem }, &resolved.rate, horizon)
             } else {
@@ -95,11 +102,11 @@ impl<const N: usize> Outset<N> {
         Ok(plan)
     }
 
-    /// Constant rates that go on changing as they did: so close that one iteration leaves nothing, while it takes two
-    /// from rates extrapolated along a straight line.
+    /// Constant rates that go on changing as they did, along a cubic: so close that one iteration leaves nothing, where
+    /// rates extrapolated along a straight line take two.
     fn go_on(&self) -> Motion<N> {
-        let [last, before] = &self.before;
-        Motion::constant((self.motion.rate - last) * 3.0 + before)
+        let [first, second, third] = &self.before;
+        Motion::constant((self.motion.rate + second) * 4.0 - first * 6.0 - third)
     }
 
     /// Integrates the interval of length `horizon` from time `t` in the motion of the `plan`: where it ends, and the

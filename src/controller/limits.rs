@@ -44,8 +44,14 @@ impl Limits {
     #[must_use]
     pub fn window(&self, position: f64, before: f64, size: f64) -> [f64; 2] {
         let change = self.acceleration * size;
-        let downwards = self.stopping_rate(position - self.lower, size).min(self.rate);
-        let upwards = self.stopping_rate(self.upper - position, size).min(self.rate);
+        let [downwards, upwards] = [position - self.lower, self.upper - position].map(|distance| {
+            // Far from the stop, the full rate: braking takes less than rate^2 / 2 a and one interval.
+            if 2.0 * self.acceleration * distance >= self.rate * (self.rate + 2.0 * change) {
+                self.rate
+            } else {
+                self.stopping_rate(distance, size).min(self.rate)
+            }
+        });
         [-downwards, upwards].map(|rate| rate.min(before + change).max(before - change))
     }
 

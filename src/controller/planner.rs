@@ -133,7 +133,7 @@ impl<const N: usize> Controller<N> {
                 resolver: Resolver::new(parameters, structure.links, dynamics.vehicle.reach()),
                 hold: ik.hold,
                 motion: Motion::constant(SVector::zeros()),
-                before: [SVector::zeros(); 2],
+                before: [SVector::zeros(); 3],
                 places: qp::FREE,
                 dynamics,
                 now,
@@ -182,7 +182,7 @@ impl<const N: usize> Controller<N> {
         self.planned_end.situation.state.check(t)?;
         self.aim = target.displacement;
         let outset = &mut self.outset;
-        outset.before = [outset.motion.rate, outset.before[0]];
+        outset.before = [outset.motion.rate, outset.before[0], outset.before[1]];
         outset.motion = plan.motion;
         outset.places = plan.places;
         self.planned_at = t;

@@ -71,7 +71,7 @@ pub(super) struct Resolver {
     axes: PathAxes,
     links: usize,
     /// Length of the stretched arm \[m\].
-    reach: f64,
+    pub reach: f64,
     weights: Weights,
     gradient_gain: f64,
     rate_penalty: f64,

@@ -39,14 +39,23 @@ impl<const N: usize> Response<N> {
         let own = |i: usize| {
             if i < vehicle.links { perp(tip - node.posture.joint[i]) } else { Vec2::zeros() }
         };
-        let carried = |v: Twist, arm: Twist| dynamics.carried_momentum(node, turn, v, arm).angular;
+        // Where the arm feels all that the base does, what the system has less what the UAV has; rates alone give the
+        // system none.
+        let all = dynamics.carried_load_is_a_balance();
+        let carried = |v: Twist, arm: Twist, system: f64| {
+            if all {
+                system - vehicle.uav_inertia * v.angular
+            } else {
+                dynamics.carried_momentum(node, turn, v, arm).angular
+            }
+        };
         Self {
             base,
             base_free,
             jacobian: SMatrix::from_fn(|row, i| (at_tip(base[i]) + own(i))[row]),
             end_effector_free: at_tip(base_free),
-            carried: SVector::from_fn(|i, _| carried(base[i], matrix.columns[i])),
-            carried_free: carried(base_free, Twist::ZERO),
+            carried: SVector::from_fn(|i, _| carried(base[i], matrix.columns[i], 0.0)),
+            carried_free: carried(base_free, Twist::ZERO, momentum.angular),
         }
     }
 

@@ -48,7 +48,8 @@ impl<const N: usize> Dynamics<N> {
     }
 
     /// Whether its integral follows from changes of momentum, because the UAV feels all that the arm does.
-    pub(super) fn carried_load_is_a_balance(&self) -> bool {
+    #[must_use]
+    pub fn carried_load_is_a_balance(&self) -> bool {
         self.base == BaseModel::Full && self.moment_model == MomentModel::FreeBase
     }
 }

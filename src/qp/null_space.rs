@@ -9,6 +9,8 @@ const DEPENDENT: f64 = 1e-10;
 /// reflections, the largest remaining row first. Columns of Q beyond the rank span the null space.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct NullSpace {
+    /// The free variables that it is for; none: it is for nothing yet.
+    of: Option<[bool; MAX_VARIABLES]>,
     /// Indices of the free variables, and how many.
     index: [usize; MAX_VARIABLES],
     free: usize,
@@ -21,26 +23,35 @@ pub(super) struct NullSpace {
 }
 
 impl NullSpace {
-    /// For the variables that are `free`.
-    pub fn new(equalities: &Rows, free: &[bool]) -> Self {
-        let mut space = Self {
-            index: [0; MAX_VARIABLES],
-            free: 0,
-            order: std::array::from_fn(|row| row),
-            rank: 0,
-            reflections: [[0.0; MAX_VARIABLES]; MAX_ROWS],
-            factor: [[0.0; MAX_VARIABLES]; MAX_ROWS],
-        };
+    /// For nothing yet.
+    pub const EMPTY: Self = Self {
+        of: None,
+        index: [0; MAX_VARIABLES],
+        free: 0,
+        order: [0; MAX_ROWS],
+        rank: 0,
+        reflections: [[0.0; MAX_VARIABLES]; MAX_ROWS],
+        factor: [[0.0; MAX_VARIABLES]; MAX_ROWS],
+    };
+
+    /// Becomes that of the same `equalities` as before for the variables that are `free`, at no cost if it is
+    /// already.
+    pub fn span(&mut self, equalities: &Rows, free: &[bool; MAX_VARIABLES]) {
+        if self.of.as_ref() == Some(free) {
+            return;
+        }
+        self.of = Some(*free);
+        (self.free, self.rank) = (0, 0);
         for (i, _) in free.iter().enumerate().filter(|(_, free)| **free) {
-            space.index[space.free] = i;
-            space.free += 1;
+            self.index[self.free] = i;
+            self.free += 1;
         }
         for (row, (coefficients, _)) in equalities.iter().enumerate() {
-            space.factor[row] = space.part(coefficients);
+            self.order[row] = row;
+            self.factor[row] = self.part(coefficients);
         }
         let negligible = DEPENDENT * equalities.size();
-        while space.rank < equalities.count.min(space.free) && space.eliminate(equalities.count, negligible) {}
-        space
+        while self.rank < equalities.count.min(self.free) && self.eliminate(equalities.count, negligible) {}
     }
 
     /// The next reflection; false if no row is left.

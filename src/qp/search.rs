@@ -30,6 +30,10 @@ pub(super) struct Search<'a> {
     pub movable: [bool; MAX_VARIABLES],
     /// Sign of each penalised variable in motion: its penalty is linear up to 0.
     side: Vector,
+    /// The directions in which the free variables may move.
+    space: NullSpace,
+    /// Whether they are at their minimum already.
+    settled: bool,
 }
 
 impl<'a> Search<'a> {
@@ -53,6 +57,8 @@ impl<'a> Search<'a> {
             free: [false; MAX_VARIABLES],
             movable: std::array::from_fn(|i| i < n && problem.lower[i] < problem.upper[i]),
             side: [1.0; MAX_VARIABLES],
+            space: NullSpace::EMPTY,
+            settled: false,
         }
     }
 
@@ -74,17 +80,20 @@ impl<'a> Search<'a> {
                 self.x[i] = if rest { x } else { 0.0 };
             }
         }
-        let space = NullSpace::new(self.equalities, &self.free);
+        self.space.span(self.equalities, &self.free);
         let mut missing = [0.0; MAX_ROWS];
         for (missing, (row, value)) in missing.iter_mut().zip(self.equalities.iter()) {
             *missing = value - dot(row, &self.x);
         }
-        self.scatter(&space, &space.particular(&missing));
-        let step = self.step(&space);
-        self.scatter(&space, &step);
+        let onto = self.space.particular(&missing);
+        self.scatter(&onto);
+        let step = self.step();
+        self.scatter(&step);
         let within = (0..*n).all(|i| self.x[i].is_finite() && self.x[i] >= lower[i] && self.x[i] <= upper[i]);
         if within && self.equalities.met_by(&self.x) {
+            let side = self.side;
             self.take_sides();
+            self.settled = self.side == side;
             return true;
         }
         // As near as the bounds allow; whatever is no number is forgotten.
@@ -98,6 +107,7 @@ impl<'a> Search<'a> {
     /// Puts the variables at `x` within the bounds; those at an end or at a kink rest.
     pub fn start(&mut self, x: Vector) {
         self.x = x;
+        self.settled = false;
         for (i, x) in x.iter().enumerate().take(self.problem.variables) {
             let inside = *x > self.problem.lower[i] && *x < self.problem.upper[i];
             self.free[i] = self.movable[i] && inside && !(self.penalty[i] > 0.0 && *x == 0.0);
@@ -115,45 +125,53 @@ impl<'a> Search<'a> {
     /// Sets variables free until the equalities have all the rank that they can have: their multipliers are
     /// unique then, and remain so.
     pub fn complete(&mut self) {
-        let rank = |free: &[bool]| NullSpace::new(self.equalities, free).rank();
-        let mut present = rank(&self.free);
+        let mut present = self.rank(self.free);
         if present == self.equalities.count {
             return;
         }
-        let full = rank(&self.movable);
+        self.settled = false;
+        let full = self.rank(self.movable);
         for i in 0..self.problem.variables {
             if present == full {
                 return;
             }
             if self.movable[i] && !self.free[i] {
                 self.free[i] = true;
-                let with = NullSpace::new(self.equalities, &self.free).rank();
+                let with = self.rank(self.free);
                 self.free[i] = with > present;
                 present = present.max(with);
             }
         }
     }
 
+    /// Number of independent equalities among the `free` variables.
+    fn rank(&mut self, free: [bool; MAX_VARIABLES]) -> usize {
+        self.space.span(self.equalities, &free);
+        self.space.rank()
+    }
+
     /// Walks to the minimum; false if it was not reached.
     pub fn descend(&mut self) -> bool {
         let mut stalled = false;
         for _ in 0..STEPS {
-            let space = NullSpace::new(self.equalities, &self.free);
-            let step = self.step(&space);
-            let before = self.x;
-            if !space.indices().iter().zip(&step).all(|(i, step)| (before[*i] + step).is_finite()) {
-                return false;
+            self.space.span(self.equalities, &self.free);
+            if !std::mem::take(&mut self.settled) {
+                let step = self.step();
+                let before = self.x;
+                if !self.space.indices().iter().zip(&step).all(|(i, step)| (before[*i] + step).is_finite()) {
+                    return false;
+                }
+                if let Some((share, i, end)) = self.first_stop(&step) {
+                    self.scatter(&step.map(|step| step * share));
+                    self.x[i] = end;
+                    self.free[i] = false;
+                    stalled = self.rests_at(&before);
+                    continue;
+                }
+                self.scatter(&step);
+                stalled = stalled && self.rests_at(&before);
             }
-            if let Some((share, i, end)) = self.first_stop(&space, &step) {
-                self.scatter(&space, &step.map(|step| step * share));
-                self.x[i] = end;
-                self.free[i] = false;
-                stalled = self.rests_at(&before);
-                continue;
-            }
-            self.scatter(&space, &step);
-            stalled = stalled && self.rests_at(&before);
-            let Some((i, side)) = self.entering(&space, stalled) else { return true };
+            let Some((i, side)) = self.entering(stalled) else { return true };
             self.free[i] = true;
             self.side[i] = side;
         }
@@ -167,14 +185,15 @@ impl<'a> Search<'a> {
     }
 
     /// Moves the free variables by `step`.
-    fn scatter(&mut self, space: &NullSpace, step: &Vector) {
-        for (i, step) in space.indices().iter().zip(step) {
+    fn scatter(&mut self, step: &Vector) {
+        for (i, step) in self.space.indices().iter().zip(step) {
             self.x[*i] += step;
         }
     }
 
     /// The way to the minimum over the free variables, regardless of their ends.
-    fn step(&self, space: &NullSpace) -> Vector {
+    fn step(&self) -> Vector {
+        let space = &self.space;
         if space.dimension() == 0 {
             return [0.0; MAX_VARIABLES];
         }
@@ -204,10 +223,10 @@ impl<'a> Search<'a> {
     }
 
     /// The first variable that `step` would carry past its end: share of the step, variable and end.
-    fn first_stop(&self, space: &NullSpace, step: &Vector) -> Option<(f64, usize, f64)> {
+    fn first_stop(&self, step: &Vector) -> Option<(f64, usize, f64)> {
         let fastest = largest(step);
         let mut first: Option<(f64, usize, f64)> = None;
-        for (&i, &step) in space.indices().iter().zip(step) {
+        for (&i, &step) in self.space.indices().iter().zip(step) {
             if step.abs() <= AT_REST * fastest {
                 continue;
             }
@@ -223,7 +242,11 @@ impl<'a> Search<'a> {
 
     /// The variable at rest that is to move, and the side on which: the steepest one, or that of the least
     /// index.
-    fn entering(&self, space: &NullSpace, least_index: bool) -> Option<(usize, f64)> {
+    fn entering(&self, least_index: bool) -> Option<(usize, f64)> {
+        let at_rest = |i: &usize| self.movable[*i] && !self.free[*i];
+        if !(0..self.problem.variables).any(|i| at_rest(&i)) {
+            return None;
+        }
         // Half the gradient without penalties, and the size of the terms in it.
         let mut gradient = self.x.map(|x| self.ridge * x);
         let mut terms = gradient.map(f64::abs);
@@ -237,6 +260,7 @@ impl<'a> Search<'a> {
         }
         let slopes = self.slopes();
         let total = std::array::from_fn(|i| gradient[i] + slopes[i]);
+        let space = &self.space;
         let multipliers = space.multipliers(&space.coordinates(space.part(&total)));
         for (multiplier, (row, _)) in multipliers.iter().zip(self.equalities.iter()) {
             for i in 0..self.problem.variables {
@@ -246,7 +270,7 @@ impl<'a> Search<'a> {
         }
 
         let mut best: Option<(f64, usize, f64)> = None;
-        for i in (0..self.problem.variables).filter(|i| self.movable[*i] && !self.free[*i]) {
+        for i in (0..self.problem.variables).filter(at_rest) {
             let (x, weight) = (self.x[i], 0.5 * self.penalty[i]);
             let upwards = if x < 0.0 { -weight } else { weight };
             let downwards = if x > 0.0 { weight } else { -weight };
