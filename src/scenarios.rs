@@ -43,6 +43,21 @@ impl Scenario {
         reader::read(text, &catalogue()?)
     }
 
+    /// The scenario with other values of parameters, `duration` or `step`, each written as in a file; a word needs
+    /// no quotes.
+    ///
+    /// # Errors
+    /// Names the key or value that is not understood, with what is allowed.
+    pub fn with<'a>(&self, changes: impl IntoIterator<Item = (&'a str, &'a str)>) -> Result<Self, Error> {
+        let mut text = writer::based_on(self);
+        changes.into_iter().for_each(|(name, value)| writer::change(&mut text, name, value));
+        reader::read(&text, std::slice::from_ref(self)).map_err(|error| match error {
+            // The lines are ours.
+            Error::Line { problem, .. } => Error::Change(problem),
+            error => error,
+        })
+    }
+
     /// The scenario as a TOML file, with unit and meaning of every parameter.
     #[must_use]
     pub fn write(&self, extent: Extent) -> String {

@@ -175,3 +175,21 @@ proptest! {
         prop_assert_eq!(Scenario::read(&scenario.write(Extent::Changes)).unwrap(), scenario);
     }
 }
+
+#[test]
+fn a_scenario_with_changes_is_the_same_but_for_these() {
+    let known = find("4.4b").unwrap();
+    let changed = known
+        .with([("counterweight.time_constant", "1e-1"), ("ik.discretization", "euler"), ("duration", "12")])
+        .unwrap();
+    let mut expected = Scenario { duration: 12.0, ..known.clone() };
+    expected.parameters.counterweight.time_constant = 0.1;
+    expected.parameters.ik.discretization = uam::parameters::Discretization::Euler;
+    assert_eq!(changed, expected);
+
+    let refusal = |name: &str, value: &str| known.with([(name, value)]).unwrap_err().to_string();
+    assert!(refusal("counterweight.strok", "1").contains("did you mean `counterweight.stroke`"));
+    assert!(refusal("joint[1].rate_limit", "fast").contains("`joint[1].rate_limit` must be a finite number, above 0"));
+    assert!(refusal("step", "-1").contains("`step` must be a number of seconds above 0"));
+    assert!(!refusal("step", "-1").contains("line"));
+}

@@ -18,6 +18,7 @@ Examples:
   fmu-build thesis                          every statement of the thesis beside what comes out
   fmu-build reach                           how far the arm reaches with a counterweight
   fmu-build budget                          which communication step for which error
+  fmu-build vary 3.7 pace=1,1.2,1.5         the same motion, faster
   fmu-build list                            the simulations that `simulate` knows
   fmu-build simulate 4.3a                   one simulation, with its own report
   fmu-build simulate 4.3b --step 0.01 --stop 10 --discretization euler
@@ -60,12 +61,17 @@ pub enum Command {
     ///
     /// Each runs with both discretizations. Builds the FMUs that this needs.
     Thesis,
+    /// Run a simulation with some numbers changed, and print what depends on them
+    ///
+    /// One column for the simulation as it is, and one for each value. Several names take their values together: the
+    /// first value of each, then the second; a single value stays. Nothing is written.
+    Vary(VaryArguments),
     /// Find out how far the arm reaches, with the counterweight locked and moving
     ///
-    /// Enlarges the motions of thesis 3.8 and, with payload, 4.4 by a centimetre at a time until the end effector
-    /// is more than a millimetre off its reference at any communication point, and then narrows this down to a
-    /// millimetre.
-    Reach,
+    /// Enlarges the motions of thesis 3.8 and, with payload, 4.4 by a centimetre at a time until limits or a singular
+    /// configuration make the path give way (`ik.status`), and then narrows this down to a millimetre. Writes
+    /// reach.html, which shows the moment on the UAV over the way.
+    Reach(ReachArguments),
     /// Find out which communication step leaves which error
     ///
     /// Runs the pick-up with steps from 0.1 ms to 50 ms, both discretizations and holds, three orders in which a
@@ -165,6 +171,52 @@ pub struct SimulateArguments {
     pub all_outputs: bool,
 }
 
+/// Which simulation, and what to change.
+#[derive(Debug, Args)]
+pub struct VaryArguments {
+    /// Name of the simulation as in `list`, or a TOML file as `show` prints it
+    pub scenario: String,
+    /// A name and its values, for instance autopilot.roll.kd=3,6,9
+    ///
+    /// A parameter (`[*]` instead of `[1]`: that of every joint), `duration`, `step`, `pace` (all times of path and grasp are divided by it) or `size` (all ways of
+    /// the path are multiplied by it).
+    #[arg(value_name = "NAME=VALUES", required = true, value_parser = change)]
+    pub changes: Vec<Change>,
+    /// Print every quantity, not only those about which the thesis says something
+    #[arg(long)]
+    pub all: bool,
+}
+
+/// What to change in the motions.
+#[derive(Debug, Args)]
+pub struct ReachArguments {
+    /// A name and its value, as in `vary`, for instance joint[*].acceleration_limit=20
+    #[arg(value_name = "NAME=VALUE", value_parser = change)]
+    pub changes: Vec<Change>,
+}
+
+/// A name and the values that it takes one after the other.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Change {
+    /// The name.
+    pub name: String,
+    /// The values, at least one.
+    pub values: Vec<String>,
+}
+
+impl Change {
+    /// The name with its only value.
+    ///
+    /// # Errors
+    /// If there are several.
+    pub fn single(&self) -> anyhow::Result<(&str, &str)> {
+        let [value] = &self.values[..] else {
+            anyhow::bail!("{} must have one value, but has {}", self.name, self.values.len())
+        };
+        Ok((&self.name, value))
+    }
+}
+
 /// Which simulation to print, and how much of it.
 #[derive(Debug, Args)]
 pub struct ShowArguments {
@@ -180,6 +232,15 @@ pub struct ShowArguments {
 pub struct ExportArguments {
     /// Name of the simulation as in `list`, or a TOML file
     pub scenario: String,
+}
+
+fn change(text: &str) -> Result<Change, String> {
+    let (name, values) =
+        text.split_once('=').ok_or("a name and its values are needed, for instance step=0.001,0.01")?;
+    Ok(Change {
+        name: name.trim().to_owned(),
+        values: values.split(',').map(|value| value.trim().to_owned()).collect(),
+    })
 }
 
 fn links(text: &str) -> Result<usize, String> {

@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use anyhow::{Context, Result};
 use fmu_build::coupling::Pair;
 use fmu_build::run::Run;
+use fmu_build::study::DISCRETIZATIONS;
 use fmu_build::{BuildOptions, Built, workspace};
 use indicatif::{ProgressBar, ProgressStyle};
 use uam::Structure;
@@ -20,6 +21,7 @@ mod pick_up;
 mod reach;
 mod simulate;
 mod thesis;
+mod vary;
 
 /// Does what the command line asks for.
 pub fn execute(arguments: &Arguments) -> Result<()> {
@@ -29,7 +31,8 @@ pub fn execute(arguments: &Arguments) -> Result<()> {
         Some(Command::Build(arguments)) => build::execute(arguments, out),
         Some(Command::Simulate(simulation)) => simulate::execute(simulation, out),
         Some(Command::Thesis) => thesis::execute(out),
-        Some(Command::Reach) => reach::execute(out),
+        Some(Command::Vary(arguments)) => vary::execute(arguments, out),
+        Some(Command::Reach(arguments)) => reach::execute(arguments, out),
         Some(Command::Budget) => budget::execute(out),
         Some(Command::List) => {
             for scenario in scenarios::catalogue()? {
@@ -132,6 +135,13 @@ impl Progress {
     fn new(points: u64, what: &'static str) -> Result<Self> {
         let style = ProgressStyle::with_template("{msg} [{bar:40}] {percent:>3} % in {elapsed}")?.progress_chars("=> ");
         Ok(Self { bar: ProgressBar::new(points).with_style(style).with_message(what), points: AtomicU64::new(0) })
+    }
+
+    /// Of all points of scenarios that run with each discretization.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "only for the progress bar")]
+    fn of(scenarios: &[Scenario], what: &'static str) -> Result<Self> {
+        let points: f64 = scenarios.iter().map(|scenario| scenario.duration / scenario.step).sum();
+        Self::new(points as u64 * DISCRETIZATIONS.len() as u64, what)
     }
 
     fn point(&self) {

@@ -34,6 +34,7 @@ pub mod study;
 pub mod text;
 pub mod units;
 mod universal;
+pub mod variation;
 pub mod workspace;
 mod xml;
 

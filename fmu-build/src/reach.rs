@@ -1,4 +1,9 @@
-//! How far the arm reaches: a motion is enlarged until the end effector cannot follow any more.
+//! How far the arm reaches: a motion is enlarged until the inverse kinematics cannot follow any more.
+//!
+//! It cannot follow where the path gives way: `ik.status` says at some communication point that limits (of rate,
+//! acceleration and position), or a singular configuration, leave no rates that keep to the path. In the thesis this is
+//! where the equations of the path and the bounds contradict each other, and its program finds no solution. An error of
+//! the end effector is no measure of that: the thesis' own step has one on any path.
 
 use uam::parameters::Discretization;
 use uam::scenarios::Scenario;
@@ -7,14 +12,17 @@ use crate::claims::Quantity;
 use crate::coupling::{Error, Pair};
 use crate::study::run_with;
 
-/// An end effector that is farther from its reference than this, at any communication point, does not follow \[m\].
-pub const FOLLOWS: f64 = 1e-3;
 /// By how much the motion is enlarged until it cannot be followed \[m\].
 pub const STRIDE: f64 = 0.01;
 /// How far the result may be from the edge \[m\].
 pub const PRECISION: f64 = 1e-3;
 /// No arm of the catalogue is longer \[m\].
-const LONGEST: f64 = 0.5;
+pub const LONGEST: f64 = 0.5;
+/// A moment on the UAV that is never larger than this counts as balanced: the order of what the thesis has \[N m\].
+pub const BALANCED: f64 = 0.2;
+
+/// A reach this near to that of the thesis, as a share of it, agrees.
+pub const AGREEMENT: f64 = 0.15;
 
 /// A scenario of the thesis that goes as far as its arm reaches.
 #[derive(Debug, Clone, Copy)]
@@ -23,23 +31,55 @@ pub struct Motion {
     pub scenario: &'static str,
     /// How far the thesis gets \[m\].
     pub thesis: f64,
+    /// The same in words.
+    pub says: &'static str,
 }
 
 /// The motions of thesis 3.8 and 4.4, with the counterweight locked and moving.
 pub const MOTIONS: [Motion; 4] = [
-    Motion { scenario: "3.8a", thesis: 0.13 },
-    Motion { scenario: "3.8b", thesis: 0.24 },
-    Motion { scenario: "4.4a", thesis: 0.11 },
-    Motion { scenario: "4.4b", thesis: 0.125 },
+    Motion { scenario: "3.8a", thesis: 0.13, says: "130 mm" },
+    Motion { scenario: "3.8b", thesis: 0.24, says: "240 mm" },
+    Motion { scenario: "4.4a", thesis: 0.11, says: "110 mm" },
+    Motion { scenario: "4.4b", thesis: 0.125, says: "125 mm" },
 ];
+
+/// A motion of one size.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Trial {
+    /// How far it goes to the right \[m\].
+    pub way: f64,
+    /// Whether it was followed to its end.
+    pub followed: bool,
+    /// Largest moment on the UAV \[N m\].
+    pub moment: f64,
+}
+
+impl Trial {
+    /// Runs a scenario enlarged to this `way`.
+    ///
+    /// # Errors
+    /// If the run cannot be started.
+    pub fn run(pair: &Pair, scenario: &Scenario, discretization: Discretization, way: f64) -> Result<Self, Error> {
+        let run = run_with(pair, &enlarged(scenario, way), discretization, &|| {})?;
+        let never = Quantity::GivesWayAt.measure(&run.recording) == f64::INFINITY;
+        // A run that stopped early did not follow.
+        Ok(Self { way, followed: run.stopped.is_none() && never, moment: Quantity::Moment.measure(&run.recording) })
+    }
+
+    fn balanced(&self) -> bool {
+        self.followed && self.moment <= BALANCED
+    }
+}
 
 /// What came out.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reach {
-    /// The longest way to the right that was followed, as was every shorter one that was tried \[m\].
+    /// The longest way that was followed, as was every shorter one that was tried \[m\].
     pub followed: f64,
-    /// Ways that were tried, with the largest error of the end effector \[m\].
-    pub tried: Vec<[f64; 2]>,
+    /// The longest way on which the moment on the UAV stayed balanced, too, as on every shorter one \[m\].
+    pub balanced: f64,
+    /// All motions that were tried, from the smallest.
+    pub trials: Vec<Trial>,
 }
 
 /// The scenario with all its ways along x in proportion, such that the first leg goes `way` to the right \[m\].
@@ -53,37 +93,32 @@ pub fn enlarged(scenario: &Scenario, way: f64) -> Scenario {
     scenario
 }
 
-/// Enlarges the motion by [`STRIDE`] until it cannot be followed, then halves the last stride down to
+/// Enlarges a motion by [`STRIDE`] until it cannot be followed, then halves the strides at both edges down to
 /// [`PRECISION`].
 ///
 /// # Errors
-/// If a run cannot be started.
-pub fn reach(pair: &Pair, scenario: &Scenario, discretization: Discretization) -> Result<Reach, Error> {
-    let follow = |way: f64| {
-        let run = run_with(pair, &enlarged(scenario, way), discretization, &|| {})?;
-        let error = Quantity::TrackingError.measure(&run.recording);
-        // A run that stopped early did not follow.
-        Ok::<f64, Error>(if run.stopped.is_some() { f64::INFINITY } else { error })
-    };
-    search(follow)
-}
-
-fn search<E>(mut follow: impl FnMut(f64) -> Result<f64, E>) -> Result<Reach, E> {
-    let mut reach = Reach { followed: 0.0, tried: Vec::new() };
-    let mut stride = STRIDE;
-    let mut lost = f64::INFINITY;
-    while stride >= PRECISION && reach.followed < LONGEST {
-        let way = if lost.is_finite() { reach.followed + stride } else { reach.followed + STRIDE };
-        let error = follow(way)?;
-        reach.tried.push([way, error]);
-        if error <= FOLLOWS {
-            reach.followed = way;
-        } else {
-            lost = way;
-        }
-        stride = if lost.is_finite() { 0.5 * (lost - reach.followed) } else { STRIDE };
+/// If `run` fails.
+pub fn reach<E>(mut run: impl FnMut(f64) -> Result<Trial, E>) -> Result<Reach, E> {
+    let mut trials: Vec<Trial> = Vec::new();
+    let mut way = STRIDE;
+    while trials.last().is_none_or(|trial| trial.followed) && way < LONGEST {
+        trials.push(run(way)?);
+        way += STRIDE;
     }
-    Ok(reach)
+    let mut edge = |good: fn(&Trial) -> bool| {
+        let beyond = trials.iter().position(|trial| !good(trial));
+        let within = beyond.unwrap_or(trials.len()).checked_sub(1).map_or(0.0, |last| trials[last].way);
+        let (mut within, mut beyond) = (within, beyond.map_or(within, |first| trials[first].way));
+        while beyond - within > PRECISION {
+            let trial = run(0.5 * (within + beyond))?;
+            *(if good(&trial) { &mut within } else { &mut beyond }) = trial.way;
+            trials.push(trial);
+        }
+        trials.sort_by(|a, b| a.way.total_cmp(&b.way));
+        Ok(within)
+    };
+    let (followed, balanced) = (edge(|trial| trial.followed)?, edge(Trial::balanced)?);
+    Ok(Reach { followed, balanced, trials })
 }
 
 #[cfg(test)]
@@ -91,12 +126,26 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_edge_is_found_within_the_precision() {
-        for edge in [0.004, 0.013, 0.1304, 0.2399] {
-            let reach = search(|way| Ok::<f64, ()>(if way > edge { 1.0 } else { 1e-12 })).unwrap();
-            assert!((edge - 2.0 * PRECISION..=edge).contains(&reach.followed), "{edge}: {reach:?}");
+    fn both_edges_are_found_within_the_precision() {
+        for (follows, balances) in [(0.004, 0.002), (0.1304, 0.013), (0.2399, 0.2399), (0.3, 0.0)] {
+            let run = |way: f64| {
+                let moment = if way > balances { 1.0 } else { 0.01 };
+                Ok::<_, ()>(Trial { way, followed: way <= follows, moment })
+            };
+            let found = reach(run).unwrap();
+            for (edge, found) in [(follows, found.followed), (balances, found.balanced)] {
+                assert!((edge - PRECISION..=edge).contains(&found), "{edge}: {found}");
+            }
+            assert!(found.trials.is_sorted_by(|a, b| a.way < b.way));
         }
-        assert_eq!(search(|_| Ok::<f64, ()>(f64::NAN)).unwrap().followed, 0.0);
+    }
+
+    #[test]
+    fn the_smallest_gap_counts() {
+        let run = |way: f64| Ok::<_, ()>(Trial { way, followed: !(0.115..0.125).contains(&way), moment: f64::NAN });
+        let found = reach(run).unwrap();
+        assert!((0.114..0.115).contains(&found.followed) && found.balanced == 0.0, "{found:?}");
+        assert!(found.trials.iter().all(|trial| trial.way < 0.13));
     }
 
     #[test]

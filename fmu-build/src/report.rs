@@ -11,6 +11,7 @@ mod decimate;
 pub mod figures;
 pub mod pick_up;
 mod pose;
+pub mod reach;
 pub mod single;
 mod style;
 

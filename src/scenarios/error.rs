@@ -21,6 +21,9 @@ pub enum Error {
         /// What is wrong there.
         problem: Problem,
     },
+    /// Something in a change of a scenario.
+    #[error(transparent)]
+    Change(Problem),
     /// A key that every file needs, unless it is based on a scenario that has it.
     #[error("`{key}` is missing: {expected}")]
     Missing {

@@ -66,6 +66,24 @@ balance = \"{balance}\"
     text
 }
 
+/// The beginning of a file that reads as this scenario with some changes.
+pub(super) fn based_on(scenario: &Scenario) -> String {
+    let id = quoted(&scenario.id);
+    format!("id = {id}\nbased_on = {id}\n")
+}
+
+/// Appends a change to a file that is based on a scenario.
+pub(super) fn change(text: &mut String, name: &str, value: &str) {
+    let table = if ["duration", "step"].contains(&name) { "" } else { "parameters." };
+    let value = match (value.parse::<f64>(), value) {
+        (Ok(number), _) => format!("{number:?}"),
+        (_, "true" | "false") => value.to_owned(),
+        _ => quoted(value),
+    };
+    // Writing to a text cannot fail.
+    let _ = writeln!(text, "{table}{} = {value}", quoted(name));
+}
+
 /// A text as TOML writes it.
 fn quoted(text: &str) -> String {
     let mut quoted = String::from('"');

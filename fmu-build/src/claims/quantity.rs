@@ -2,6 +2,9 @@
 
 use std::fmt;
 
+use uam::controller::Status;
+use uam::options::Choice;
+
 use super::LOST;
 use crate::record::Recording;
 
@@ -76,6 +79,8 @@ pub enum Quantity {
     MissedYShare,
     /// [`Quantity::MissedRoll`] as a share of the largest roll.
     MissedRollShare,
+    /// When limits or a singular configuration make the path give way for the first time.
+    GivesWayAt,
     /// When [`Quantity::TrackingError`] exceeds [`LOST`] for the first time.
     LostAt,
 }
@@ -100,7 +105,7 @@ enum Reading {
 
 impl Quantity {
     /// Every quantity, in the order of tables.
-    pub const ALL: [Self; 35] = [
+    pub const ALL: [Self; 36] = [
         Self::FarthestRight,
         Self::FarthestLeft,
         Self::WayX,
@@ -135,6 +140,7 @@ impl Quantity {
         Self::MissedRoll,
         Self::MissedYShare,
         Self::MissedRollShare,
+        Self::GivesWayAt,
         Self::LostAt,
     ];
 
@@ -180,6 +186,7 @@ impl Quantity {
             Self::MissedRoll => ("prediction misses the roll by", Reading::Degrees),
             Self::MissedYShare => ("prediction misses the UAV's y by, of its way in y", Reading::Percent),
             Self::MissedRollShare => ("prediction misses the roll by, of the largest", Reading::Percent),
+            Self::GivesWayAt => ("path gives way to limits at", Reading::Seconds),
             Self::LostAt => ("arm leaves its workspace at", Reading::Seconds),
         }
     }
@@ -256,6 +263,16 @@ impl Quantity {
             Self::MissedRoll => apart("base.roll", "predicted.base.roll"),
             Self::MissedYShare => Self::MissedY.measure(recording) / size("base.y"),
             Self::MissedRollShare => Self::MissedRoll.measure(recording) / size("base.roll"),
+            Self::GivesWayAt => {
+                let status = recording.column("ik.status");
+                if status.is_empty() {
+                    return f64::NAN;
+                }
+                let first = status
+                    .iter()
+                    .position(|status| GIVEN_UP.iter().any(|given_up| *status == f64::from(given_up.number())));
+                first.map_or(f64::INFINITY, |row| recording.times()[row])
+            }
             Self::LostAt => {
                 let lost = recording.tracking_error().iter().position(|&error| error > LOST || error.is_nan());
                 lost.map_or(f64::INFINITY, |row| recording.times()[row])
@@ -269,6 +286,9 @@ impl Quantity {
         Shown { quantity: self, value }
     }
 }
+
+/// Statuses of rates that do not follow the path in full, since nothing does that is allowed.
+const GIVEN_UP: [Status; 3] = [Status::PathDamped, Status::RateLimited, Status::PathLimited];
 
 /// All quantities of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,42 +2,49 @@
 
 use std::path::Path;
 
-use anyhow::Result;
-use fmu_build::reach::{FOLLOWS, MOTIONS, Motion, reach};
+use anyhow::{Context, Result, anyhow};
+use fmu_build::reach::{LONGEST, MOTIONS, Reach, STRIDE, Trial, reach};
+use fmu_build::report;
 use fmu_build::study::{DISCRETIZATIONS, on_all_cores};
-use uam::options::Choice;
+use fmu_build::variation::vary;
 use uam::parameters::Discretization;
-use uam::scenarios::find;
+use uam::scenarios::{Scenario, find};
 
-use super::{Pairs, Progress};
+use super::{Pairs, Progress, wrote};
+use crate::cli::{Change, ReachArguments};
 
-pub fn execute(out: &Path) -> Result<()> {
-    let scenarios = MOTIONS.map(|motion| find(motion.scenario)).into_iter().collect::<Result<Vec<_>, _>>()?;
+pub fn execute(arguments: &ReachArguments, out: &Path) -> Result<()> {
+    let changes = arguments.changes.iter().map(Change::single).collect::<Result<Vec<_>>>()?;
+    let changed = changes.iter().map(|(name, value)| format!("{name}={value}")).collect::<Vec<_>>().join(" ");
+    let scenario = |id: &str| anyhow::Ok(vary(&find(id)?, &changes)?);
+    let scenarios = MOTIONS.iter().map(|motion| scenario(motion.scenario)).collect::<Result<Vec<_>>>()?;
     let pairs = Pairs::build(out, scenarios.iter().map(|scenario| scenario.structure))?;
-    let jobs: Vec<(Motion, Discretization)> =
-        MOTIONS.iter().flat_map(|&motion| DISCRETIZATIONS.map(|discretization| (motion, discretization))).collect();
-    let progress = Progress::new(jobs.len() as u64, "Enlarging the motions")?;
-    let results = on_all_cores(&jobs, &|&(motion, discretization)| {
-        let scenario = find(motion.scenario)?;
-        let pair = pairs.of(scenario.structure).ok_or_else(|| anyhow::anyhow!("no FMUs for {}", scenario.structure))?;
-        let result = reach(pair, &scenario, discretization);
-        progress.bar.inc(1);
+    let jobs: Vec<(&Scenario, Discretization)> = scenarios
+        .iter()
+        .flat_map(|scenario| DISCRETIZATIONS.map(|discretization| (scenario, discretization)))
+        .collect();
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "only for the progress bar")]
+    let strides = (LONGEST / STRIDE) as u64;
+    let progress = Progress::new(strides * jobs.len() as u64, "Enlarging the motions")?;
+    let results = on_all_cores(&jobs, &|&(scenario, discretization)| {
+        let pair = pairs.of(scenario.structure).ok_or_else(|| anyhow!("no FMUs for {}", scenario.structure))?;
+        let mut tried = 0;
+        let result = reach(|way| {
+            tried += 1;
+            progress.bar.inc(u64::from(tried <= strides));
+            Trial::run(pair, scenario, discretization, way)
+        });
+        progress.bar.inc(strides.saturating_sub(tried));
         anyhow::Ok(result?)
     });
     progress.finish();
+    let results = results.into_iter().collect::<Result<Vec<Reach>>>()?;
 
-    println!(
-        "How far to the right the end effector follows, within {} mm at every communication point:\n",
-        1e3 * FOLLOWS
-    );
-    println!("{:<8}{:>12}{:>12}{:>12}", "", "thesis", DISCRETIZATIONS[0].name(), DISCRETIZATIONS[1].name());
-    let mut results = results.into_iter();
-    for (motion, scenario) in MOTIONS.iter().zip(&scenarios) {
-        print!("{:<8}{:>9.1} mm", motion.scenario, 1e3 * motion.thesis);
-        for result in results.by_ref().take(DISCRETIZATIONS.len()) {
-            print!("{:>9.1} mm", 1e3 * result?.followed);
-        }
-        println!("   {}", scenario.title);
-    }
+    println!("{}\n", report::reach::table(&scenarios, &results));
+    let page = out.join("reach.html");
+    report::reach::report(&scenarios, &results, &changed)?
+        .write(&page)
+        .with_context(|| format!("cannot write {}", page.display()))?;
+    wrote(&[page]);
     Ok(())
 }

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use anyhow::Result;
-use fmu_build::study::{self, DISCRETIZATIONS, Outcome};
+use fmu_build::study::{self, Outcome};
 use uam::scenarios::catalogue;
 
 use super::{Pairs, Progress};
@@ -12,9 +12,7 @@ use super::{Pairs, Progress};
 pub fn execute(out: &Path) -> Result<()> {
     let scenarios = catalogue()?;
     let pairs = Pairs::build(out, scenarios.iter().map(|scenario| scenario.structure))?;
-    let points: f64 = scenarios.iter().map(|scenario| scenario.duration / scenario.step).sum();
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "only for the progress bar")]
-    let progress = Progress::new(points as u64 * DISCRETIZATIONS.len() as u64, "Simulating")?;
+    let progress = Progress::of(&scenarios, "Simulating")?;
     let begin = Instant::now();
     let summaries = study::run_all(scenarios, &|structure| pairs.of(structure), &|| progress.point());
     let elapsed = begin.elapsed().as_secs_f64();

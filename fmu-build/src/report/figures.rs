@@ -24,6 +24,8 @@ pub enum Topic {
     Moment,
     /// Force of the support.
     Support,
+    /// How far the arm reaches.
+    Reach,
 }
 
 /// A figure with its heading and its caption.

@@ -1,0 +1,90 @@
+//! The report on how far the arm reaches.
+
+use maud::{PreEscaped, html};
+use uam::options::Choice;
+use uam::scenarios::Scenario;
+
+use super::chart::{Across, Curve, Panel, Scale};
+use super::{Error, Figure, Report, Topic, style};
+use crate::claims::{Cell, Row, Table};
+use crate::reach::{AGREEMENT, BALANCED, MOTIONS, Reach};
+use crate::study::DISCRETIZATIONS;
+
+/// The reaches of all motions beside those of the thesis. `results`: for each scenario those with each
+/// discretization.
+#[must_use]
+pub fn table(scenarios: &[Scenario], results: &[Reach]) -> Table {
+    let mut table = Table::new(DISCRETIZATIONS.map(|discretization| discretization.name()));
+    let cell = |way: f64, agrees| Cell { text: format!("{:.0} mm", 1e3 * way), agrees };
+    for ((motion, scenario), results) in MOTIONS.iter().zip(scenarios).zip(results.chunks(DISCRETIZATIONS.len())) {
+        let agrees = |way: f64| Some((way / motion.thesis - 1.0).abs() <= AGREEMENT);
+        let followed = Row {
+            quantity: "follows the path up to".to_owned(),
+            thesis: Some(motion.says),
+            cells: results.iter().map(|reach| cell(reach.followed, agrees(reach.followed))).collect(),
+            remark: None,
+        };
+        let balanced = Row {
+            quantity: format!("with at most {BALANCED} N m on the UAV up to"),
+            thesis: None,
+            cells: results.iter().map(|reach| cell(reach.balanced, None)).collect(),
+            remark: None,
+        };
+        table.add(format!("{} · {}", scenario.id, scenario.title), vec![followed, balanced]);
+    }
+    table
+}
+
+/// The table, and the moment on the UAV over the way.
+///
+/// # Errors
+/// If the figure cannot be drawn.
+pub fn report(scenarios: &[Scenario], results: &[Reach], changes: &str) -> Result<Report, Error> {
+    let [.., last] = DISCRETIZATIONS;
+    let exact: Vec<&Reach> = results.iter().skip(1).step_by(DISCRETIZATIONS.len()).collect();
+    let panel = |first: usize| {
+        let curves = [(first + 1, style::OTHER), (first, style::MAIN)];
+        let curves = curves.into_iter().filter_map(|(i, paint)| {
+            let points = exact.get(i)?.trials.iter().filter(|trial| trial.followed);
+            let (ways, moments): (Vec<f64>, Vec<f64>) = points.map(|trial| (1e3 * trial.way, trial.moment)).unzip();
+            Some(Curve::new(paint, &ways, moments.into_iter()))
+        });
+        let marks = [(first, "locked"), (first + 1, "moving")];
+        Panel {
+            across: Across { axis: "way to the right [mm]", scale: Scale::Linear },
+            axis: "largest moment [N m]".to_owned(),
+            scale: Scale::Linear,
+            curves: curves.collect(),
+            marks: marks.into_iter().filter_map(|(i, word)| Some((1e3 * MOTIONS.get(i)?.thesis, word))).collect(),
+        }
+    };
+    let drawings = [panel(0).svg(550)?, panel(2).svg(550)?];
+    let figure = Figure {
+        topic: Topic::Reach,
+        title: "What the way costs".to_owned(),
+        body: html! {
+            div.legend {
+                span style={ "--paint:" (style::MAIN.css()) } { "counterweight locked" }
+                span style={ "--paint:" (style::OTHER.css()) } { "counterweight moving" }
+            }
+            div.panels.two { @for drawing in drawings { (PreEscaped(drawing)) } }
+        },
+        caption: format!(
+            "Left: without payload (thesis 3.8); right: with payload (4.4). Largest moment on the UAV over the way, \
+             up to where the path gives way; discretization {}. Dashed: how far the thesis gets.",
+            last.name()
+        ),
+    };
+    Ok(Report {
+        title: "How far the arm reaches".to_owned(),
+        introduction: html! {
+            p {
+                "Each motion is enlarged until limits or a singular configuration make the path give way (" code { "ik.status" }
+                "). The moment on the UAV gives way earlier: the limits come first, then the path, then the moment."
+            }
+            @if !changes.is_empty() { p { "Changed: " code { (changes) } "." } }
+        },
+        table: table(scenarios, results),
+        figures: vec![figure],
+    })
+}
