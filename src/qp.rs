@@ -70,7 +70,7 @@ impl Rows {
     /// Whether `x` solves them, as far as rounding allows.
     fn met_by(&self, x: &Vector) -> bool {
         let farthest = largest(x);
-        self.iter().all(|(row, value)| (dot(row, x) - value).abs() <= MET * (largest(row) * farthest + value.abs()))
+        self.iter().all(|(row, value)| (product(row, x) - value).abs() <= MET * (largest(row) * farthest + value.abs()))
     }
 }
 
@@ -204,19 +204,30 @@ pub fn solve(problem: &Problem, guess: &Places) -> Solution {
 fn pull(rows: &Rows, x: &Vector) -> (Vector, f64) {
     let (mut pull, mut error_size) = ([0.0; MAX_VARIABLES], 0.0);
     for (row, value) in rows.iter() {
-        let error = dot(row, x) - value;
+        let error = product(row, x) - value;
         error_size += error.abs();
         pull.iter_mut().zip(row).for_each(|(pull, coefficient)| *pull += coefficient * error);
     }
     (pull, rows.size() * error_size)
 }
 
-/// Largest absolute value.
-fn largest(x: &[f64]) -> f64 {
-    x.iter().fold(0.0, |largest, x| x.abs().max(largest))
+/// Largest absolute value; what is no number does not count.
+fn largest(x: &Vector) -> f64 {
+    x.iter().fold(0.0, |largest, x| if x.abs() > largest { x.abs() } else { largest })
 }
 
-/// Scalar product.
+/// Scalar product of all numbers: in pairs, which takes half the time of one after the other.
+#[inline]
+fn product(a: &Vector, b: &Vector) -> f64 {
+    let mut sums = [0.0; 2];
+    for (a, b) in a.chunks_exact(2).zip(b.chunks_exact(2)) {
+        sums[0] += a[0] * b[0];
+        sums[1] += a[1] * b[1];
+    }
+    sums[0] + sums[1]
+}
+
+/// Scalar product of the first ones.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

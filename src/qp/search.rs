@@ -1,7 +1,7 @@
 //! From one working set to the next, downhill.
 
 use super::triangle::Triangle;
-use super::{MAX_ROWS, MAX_VARIABLES, NullSpace, Place, Places, Problem, Rows, Vector, dot, largest};
+use super::{MAX_ROWS, MAX_VARIABLES, NullSpace, Place, Places, Problem, Rows, Vector, largest, product};
 
 /// Working sets at most; a few are enough, and arithmetic beyond its range alone leads here.
 const STEPS: usize = 100;
@@ -38,6 +38,7 @@ pub(super) struct Search<'a> {
 
 impl<'a> Search<'a> {
     /// At the point nearest to 0, with every variable at rest.
+    #[inline]
     pub fn new(
         objective: &'a Rows,
         equalities: &'a Rows,
@@ -83,7 +84,7 @@ impl<'a> Search<'a> {
         self.space.span(self.equalities, &self.free);
         let mut missing = [0.0; MAX_ROWS];
         for (missing, (row, value)) in missing.iter_mut().zip(self.equalities.iter()) {
-            *missing = value - dot(row, &self.x);
+            *missing = value - product(row, &self.x);
         }
         let onto = self.space.particular(&missing);
         self.scatter(&onto);
@@ -201,7 +202,7 @@ impl<'a> Search<'a> {
         let mut triangle = Triangle::new(self.ridge, space.inner(&here));
         for (row, value) in self.objective.iter() {
             let coordinates = space.coordinates(space.part(row));
-            triangle.add(space.inner(&coordinates), value - dot(row, &self.x));
+            triangle.add(space.inner(&coordinates), value - product(row, &self.x));
         }
         let slope = space.coordinates(space.part(&self.slopes()));
         space.direction(&triangle.minimum(space.inner(&slope)))
@@ -247,26 +248,18 @@ impl<'a> Search<'a> {
         if !(0..self.problem.variables).any(|i| at_rest(&i)) {
             return None;
         }
-        // Half the gradient without penalties, and the size of the terms in it.
+        // Half the gradient without penalties.
         let mut gradient = self.x.map(|x| self.ridge * x);
-        let mut terms = gradient.map(f64::abs);
         for (row, value) in self.objective.iter() {
-            let error = dot(row, &self.x) - value;
-            let size = row.iter().zip(&self.x).map(|(a, x)| (a * x).abs()).sum::<f64>() + value.abs();
-            for i in 0..self.problem.variables {
-                gradient[i] += row[i] * error;
-                terms[i] += row[i].abs() * size;
-            }
+            let error = product(row, &self.x) - value;
+            gradient.iter_mut().zip(row).for_each(|(gradient, coefficient)| *gradient += coefficient * error);
         }
         let slopes = self.slopes();
         let total = std::array::from_fn(|i| gradient[i] + slopes[i]);
         let space = &self.space;
         let multipliers = space.multipliers(&space.coordinates(space.part(&total)));
         for (multiplier, (row, _)) in multipliers.iter().zip(self.equalities.iter()) {
-            for i in 0..self.problem.variables {
-                gradient[i] -= row[i] * multiplier;
-                terms[i] += (row[i] * multiplier).abs();
-            }
+            gradient.iter_mut().zip(row).for_each(|(gradient, coefficient)| *gradient -= coefficient * multiplier);
         }
 
         let mut best: Option<(f64, usize, f64)> = None;
@@ -281,7 +274,10 @@ impl<'a> Search<'a> {
             if x > self.problem.lower[i] && gradient[i] + downwards > gain {
                 (gain, side) = (gradient[i] + downwards, if x > 0.0 { 1.0 } else { -1.0 });
             }
-            if gain > FLAT * (terms[i] + weight) && best.is_none_or(|(most, ..)| gain > most) {
+            if gain > 0.0
+                && gain > FLAT * (self.terms(i, &multipliers) + weight)
+                && best.is_none_or(|(most, ..)| gain > most)
+            {
                 best = Some((gain, i, side));
                 if least_index {
                     break;
@@ -289,6 +285,17 @@ impl<'a> Search<'a> {
             }
         }
         best.map(|(_, i, side)| (i, if self.penalty[i] > 0.0 { side } else { 1.0 }))
+    }
+
+    /// Size of the terms in the gradient of variable `i`, for these `multipliers` of the equalities.
+    fn terms(&self, i: usize, multipliers: &[f64; MAX_ROWS]) -> f64 {
+        let objective = self.objective.iter().map(|(row, value)| {
+            let size = row.iter().zip(&self.x).map(|(a, x)| (a * x).abs()).sum::<f64>() + value.abs();
+            row[i].abs() * size
+        });
+        let equalities =
+            self.equalities.iter().zip(multipliers).map(|((row, _), multiplier)| (row[i] * multiplier).abs());
+        (self.ridge * self.x[i]).abs() + objective.sum::<f64>() + equalities.sum::<f64>()
     }
 
     /// Where the variables are.
