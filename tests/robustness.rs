@@ -10,11 +10,23 @@ use common::random::Random;
 use proptest::prelude::*;
 use uam::Structure;
 use uam::controller::Status;
-use uam::parameters::{Balance, BaseModel, Discretization, Hold, MomentModel, Resolution};
+use uam::parameters::{Balance, BaseModel, Discretization, Hold, MomentModel, PathAxes, Resolution};
 use uam::reference::ReferenceKind;
 
 fn one_of<T: Copy>(random: &mut Random, choices: &[T]) -> T {
     choices[((random.unit() * choices.len() as f64) as usize).min(choices.len() - 1)]
+}
+
+/// The methods for an arm of so many links, of so many coordinates that can move by any law.
+fn resolutions(links: usize, coordinates: usize) -> Vec<Resolution> {
+    let mut suitable = vec![Resolution::MinimumNorm, Resolution::Gradient, Resolution::LeastSquares];
+    if links > 2 {
+        suitable.push(Resolution::ExtendedJacobian);
+    }
+    if coordinates > 1 {
+        suitable.push(Resolution::AccelerationLevel);
+    }
+    suitable
 }
 
 proptest! {
@@ -32,10 +44,23 @@ proptest! {
         p.payload.grasp_time = random.between(0.0, 0.5);
         let limit = random.between(0.5, 20.0);
         p.joints.iter_mut().for_each(|joint| joint.rate_limit = limit);
-        let redundant = [Resolution::MinimumNorm, Resolution::Gradient, Resolution::ExtendedJacobian];
-        p.ik.resolution = one_of(random, &redundant[..if links < 3 { 2 } else { 3 }]);
+        for joint in &mut p.joints {
+            joint.acceleration_limit = limit * random.between(5.0, 500.0);
+            (joint.lower, joint.upper) =
+                (joint.start - random.between(0.1, 3.0), joint.start + random.between(0.1, 3.0));
+        }
+        let coordinates = links + usize::from(structure.balance == Balance::Element);
+        p.ik.resolution = one_of(random, &resolutions(links, coordinates));
         p.ik.discretization = one_of(random, &[Discretization::Euler, Discretization::Exact]);
-        p.ik.hold = one_of(random, &[Hold::ZeroOrder, Hold::FirstOrder]);
+        p.ik.hold = match p.ik.resolution {
+            Resolution::LeastSquares => Hold::ZeroOrder,
+            Resolution::AccelerationLevel => Hold::FirstOrder,
+            _ => one_of(random, &[Hold::ZeroOrder, Hold::FirstOrder]),
+        };
+        if p.ik.resolution == Resolution::AccelerationLevel {
+            let axes = [PathAxes::Horizontal, PathAxes::Both];
+            p.ik.path_axes = one_of(random, &axes[..if coordinates < 3 { 1 } else { 2 }]);
+        }
         p.ik.base_model = one_of(random, &[
             BaseModel::Ideal,
             BaseModel::HorizontalThrust,

@@ -5,6 +5,7 @@
 
 use nalgebra::SVector;
 
+use super::exact::INEXACT;
 use super::outset::Outset;
 use super::prediction::Prediction;
 use super::resolution::Resolver;
@@ -214,7 +215,10 @@ impl<const N: usize> Controller<N> {
         let missing = followed(target.displacement - end.end_effector());
         plan.velocity_residual = missing.norm() / horizon;
         let shortened = followed(now - here) - (left_over + unforeseen);
-        if plan.status == Status::Ok && shortened != Vec2::zeros() && missing.norm() > SHORTENED {
+        // Rates that do not jump bring it onto the path by and by.
+        let off = if outset.resolver.accelerates() { INEXACT } else { SHORTENED };
+        let apart = shortened != Vec2::zeros() || outset.resolver.accelerates();
+        if plan.status == Status::Ok && apart && missing.norm() > off {
             plan.status = Status::CatchingUp;
         }
         Ok(plan)
