@@ -143,6 +143,15 @@ impl Interface {
         self.variables.iter().enumerate().filter(move |(_, variable)| variable.causality == causality)
     }
 
+    /// The outputs that are inputs of `other`, by name and type.
+    pub fn outputs_for<'a>(&'a self, other: &'a Self) -> impl Iterator<Item = &'a Variable> {
+        let fits =
+            |output: &Variable, input: &Variable| output.name == input.name && output.value.has_type_of(&input.value);
+        self.with(Causality::Output)
+            .map(|(_, output)| output)
+            .filter(move |output| other.with(Causality::Input).any(|(_, input)| fits(output, input)))
+    }
+
     /// The units in use, each once, in order of first use.
     #[must_use]
     pub fn units(&self) -> Vec<&'static Unit> {

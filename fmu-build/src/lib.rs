@@ -31,6 +31,7 @@ pub mod run;
 pub mod settings;
 pub mod ssp;
 pub mod study;
+mod terminals;
 pub mod text;
 pub mod units;
 mod universal;

@@ -7,11 +7,17 @@ use crate::description::model_description;
 use crate::documentation;
 use crate::error::Result;
 use crate::platform::Platform;
+use crate::terminals;
 use crate::units::Unit;
 
 /// Texts of the licences, by name of the file.
-const LICENSES: [(&str, &str); 2] =
-    [("LICENSE-MIT", include_str!("../../LICENSE-MIT")), ("LICENSE-APACHE", include_str!("../../LICENSE-APACHE"))];
+const LICENSES: [(&str, &str); 3] = [
+    ("LICENSE-MIT", include_str!("../../LICENSE-MIT")),
+    ("LICENSE-APACHE", include_str!("../../LICENSE-APACHE")),
+    ("THIRD-PARTY", THIRD_PARTY),
+];
+/// What in the libraries is by others, and under which licences.
+pub const THIRD_PARTY: &str = include_str!("../../modelDescription/THIRD-PARTY");
 
 /// The FMU of a unit with its library for each of some platforms.
 ///
@@ -30,6 +36,8 @@ pub fn fmu(unit: &Unit, libraries: &[(Platform, Vec<u8>)]) -> Result<Archive> {
         archive.add(format!("documentation/licenses/{name}"), text);
     }
     archive.add("model.png", unit.icon);
+    archive.add(format!("{}/terminalsAndIcons.xml", terminals::FOLDER), terminals::terminals_and_icons(unit)?);
+    archive.add(format!("{}/icon.png", terminals::FOLDER), unit.icon);
     if let Some(text) = &unit.interface.start_file {
         archive.add(format!("resources/{}", start_file::NAME), text.as_str());
     }

@@ -58,10 +58,8 @@ fn connections<'a>(components: &'a [Component<'_>; 2]) -> impl Iterator<Item = C
 }
 
 fn between<'a>(from: &'a Component<'_>, to: &'a Component<'_>) -> impl Iterator<Item = Connection<'a>> {
-    from.interface
-        .with(Causality::Output)
-        .filter(|(_, output)| to.interface.with(Causality::Input).any(|(_, input)| matches(output, input)))
-        .map(|(_, output)| Connection { from: from.name, to: to.name, name: &output.name })
+    let connection = |output: &'a Variable| Connection { from: from.name, to: to.name, name: &output.name };
+    from.interface.outputs_for(to.interface).map(connection)
 }
 
 /// The parameters that all components have, in the order of the first.

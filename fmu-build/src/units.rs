@@ -14,6 +14,8 @@ pub struct Unit {
     pub structure: Structure,
     /// Variables and identity.
     pub interface: Interface,
+    /// What goes from the controller to the plant.
+    pub commands: Vec<String>,
     /// Picture, as PNG.
     pub icon: &'static [u8],
     /// What users should know beside the variables, in Markdown.
@@ -25,9 +27,11 @@ impl Unit {
     #[must_use]
     pub fn controller(design: impl Into<Design>) -> Self {
         let design = design.into();
+        let (controller, _, commands) = pair(&design);
         Self {
             structure: design.structure,
-            interface: Interface::of::<ControllerUnit>(&design),
+            interface: controller,
+            commands,
             icon: include_bytes!("../../modelDescription/uam_controller.png"),
             text: text::CONTROLLER,
         }
@@ -37,11 +41,20 @@ impl Unit {
     #[must_use]
     pub fn plant(design: impl Into<Design>) -> Self {
         let design = design.into();
+        let (_, plant, commands) = pair(&design);
         Self {
             structure: design.structure,
-            interface: Interface::of::<PlantUnit>(&design),
+            interface: plant,
+            commands,
             icon: include_bytes!("../../modelDescription/uam_plant.png"),
             text: text::PLANT,
         }
     }
+}
+
+/// Controller, plant, and what goes from the one to the other.
+fn pair(design: &Design) -> (Interface, Interface, Vec<String>) {
+    let (controller, plant) = (Interface::of::<ControllerUnit>(design), Interface::of::<PlantUnit>(design));
+    let commands = controller.outputs_for(&plant).map(|output| output.name.clone()).collect();
+    (controller, plant, commands)
 }

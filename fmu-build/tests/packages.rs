@@ -55,8 +55,11 @@ fn an_fmu_holds_what_the_standard_names() {
             "documentation/index.html",
             "documentation/licenses/LICENSE-APACHE",
             "documentation/licenses/LICENSE-MIT",
+            "documentation/licenses/THIRD-PARTY",
             "model.png",
             "modelDescription.xml",
+            "terminalsAndIcons/icon.png",
+            "terminalsAndIcons/terminalsAndIcons.xml",
         ]
     );
     assert_eq!(entry(&archive, "binaries/linux64/uam_plant.so"), b"library");
