@@ -42,6 +42,9 @@ make_environment() {
 
 make_environment
 
+# The linkers for other platforms, which only the large set has.
+if [[ -n "${UAM_FULL-}" ]]; then PATH="$(cd "$environment/bin" && pwd):$PATH"; fi
+
 LIBCLANG_PATH="$("$python" -c 'import pathlib, clang; print(pathlib.Path(clang.__path__[0], "native"))')"
 export LIBCLANG_PATH
 # libclang from PyPI comes without its own headers; those of the C compiler serve as well.

@@ -99,8 +99,22 @@ pub enum Command {
     Describe,
 }
 
+const BUILD_EXAMPLES: &str = "\
+Examples:
+  fmu-build build                              the vehicle of thesis 4.3, for this machine
+  fmu-build build --links 2 --counterweight    variables of two links and a counterweight
+  fmu-build build --scenario 4.4b --out there  what thesis 4.4 does, in any host that sets nothing
+  fmu-build build --platforms linux64,win64,darwin64
+
+What the platforms need beside Rust:
+  linux64        cargo-zigbuild and Zig: pip install cargo-zigbuild ziglang
+  win64          mingw-w64, and: rustup target add x86_64-pc-windows-gnu
+  darwin64       as linux64, and: rustup target add x86_64-apple-darwin aarch64-apple-darwin
+  aarch64-linux  as linux64, and: rustup target add aarch64-unknown-linux-gnu";
+
 /// Which vehicle.
 #[derive(Debug, Args)]
+#[command(after_long_help = BUILD_EXAMPLES)]
 pub struct BuildArguments {
     /// Revolute links of the arm, 1 to 6
     #[arg(long, value_name = "NUMBER", default_value_t = Structure::DEFAULT.links, value_parser = links, allow_hyphen_values = true)]

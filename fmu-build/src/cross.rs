@@ -38,6 +38,43 @@ enum Linker {
     MinGw,
 }
 
+/// A program that a linker needs.
+struct Tool {
+    name: &'static str,
+    /// How to get it.
+    origin: &'static str,
+    /// It is there if one of these succeeds.
+    commands: &'static [&'static [&'static str]],
+}
+
+impl Linker {
+    fn tools(self) -> &'static [Tool] {
+        match self {
+            Self::Zig => &[
+                Tool {
+                    name: "cargo-zigbuild",
+                    origin: "pip install cargo-zigbuild",
+                    commands: &[&["cargo-zigbuild", "--version"]],
+                },
+                Tool {
+                    name: "Zig",
+                    origin: "pip install ziglang",
+                    commands: &[
+                        &["zig", "version"],
+                        &["python3", "-m", "ziglang", "version"],
+                        &["python", "-m", "ziglang", "version"],
+                    ],
+                },
+            ],
+            Self::MinGw => &[Tool {
+                name: "mingw-w64",
+                origin: "Debian: apt-get install gcc-mingw-w64-x86-64",
+                commands: &[&["x86_64-w64-mingw32-gcc", "--version"]],
+            }],
+        }
+    }
+}
+
 /// Every platform that can be compiled for.
 pub static TARGETS: [Target; 4] = [
     Target { platform: LINUX64, triples: &["x86_64-unknown-linux-gnu"], linker: Linker::Zig },
@@ -65,13 +102,8 @@ impl Target {
             let absent = self.triples.iter().filter(|triple| !is_there(triple));
             missing.extend(absent.map(|triple| format!("Rust's standard library (rustup target add {triple})")));
         }
-        let (command, hint) = match self.linker {
-            Linker::Zig => (["cargo-zigbuild", "--version"], "cargo-zigbuild (pip install cargo-zigbuild ziglang)"),
-            Linker::MinGw => (["x86_64-w64-mingw32-gcc", "--version"], "mingw-w64 (Debian: apt-get install mingw-w64)"),
-        };
-        if !runs(command) {
-            missing.push(hint.to_owned());
-        }
+        let tools = self.linker.tools().iter().filter(|tool| !tool.commands.iter().any(|command| runs(command)));
+        missing.extend(tools.map(|tool| format!("{} ({})", tool.name, tool.origin)));
         missing
     }
 
@@ -111,10 +143,11 @@ impl Toolchain {
     }
 }
 
-/// Whether a program is there.
-fn runs([program, argument]: [&str; 2]) -> bool {
+/// Whether a command succeeds.
+fn runs(command: &[&str]) -> bool {
+    let Some((program, arguments)) = command.split_first() else { return false };
     let quiet =
-        Command::new(program).arg(argument).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).status();
+        Command::new(program).args(arguments).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).status();
     quiet.is_ok_and(|status| status.success())
 }
 
@@ -142,6 +175,13 @@ mod tests {
                 "aarch64-unknown-linux-gnu.2.17"
             ]
         );
+    }
+
+    #[test]
+    fn a_program_is_there_if_it_runs() {
+        assert!(runs(&["rustc", "--version"]));
+        assert!(!runs(&["rustc", "--no-such-option"]));
+        assert!(!runs(&["no-such-program"]) && !runs(&[]));
     }
 
     #[test]
