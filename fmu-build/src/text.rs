@@ -12,6 +12,7 @@ const CONVENTIONS: &str = include_str!("text/conventions.md");
 const COUNTERWEIGHT: &str = include_str!("text/counterweight.md");
 const COUNTERWEIGHT_LAW: &str = include_str!("text/counterweight_law.md");
 const ELEMENT: &str = include_str!("text/balance_element.md");
+const ELEMENT_LAW: &str = include_str!("text/balance_element_law.md");
 
 /// Where the conventions go.
 const PLACE_OF_CONVENTIONS: &str = "<!-- conventions -->";
@@ -21,13 +22,13 @@ const PLACE_OF_BALANCE: &str = "<!-- balance -->";
 /// A unit's text with what both have in common, and with what belongs to its structure.
 #[must_use]
 pub fn complete(text: &str, structure: Structure) -> String {
-    let law = if text == CONTROLLER { COUNTERWEIGHT_LAW } else { "" };
-    let balance = match structure.balance {
-        Balance::None => String::new(),
-        Balance::Counterweight => format!("{COUNTERWEIGHT}\n{law}"),
-        Balance::Element => ELEMENT.to_owned(),
+    let (body, law) = match structure.balance {
+        Balance::None => ("", ""),
+        Balance::Counterweight => (COUNTERWEIGHT, COUNTERWEIGHT_LAW),
+        Balance::Element => (ELEMENT, ELEMENT_LAW),
     };
-    text.replace(PLACE_OF_CONVENTIONS, CONVENTIONS).replace(PLACE_OF_BALANCE, &balance)
+    let law = if text == CONTROLLER { law } else { "" };
+    text.replace(PLACE_OF_CONVENTIONS, CONVENTIONS).replace(PLACE_OF_BALANCE, &format!("{body}\n{law}"))
 }
 
 #[cfg(test)]
