@@ -5,7 +5,7 @@
 #![allow(clippy::unwrap_used, reason = "a benchmark that cannot start has nothing to say")]
 
 use divan::Bencher;
-use uam::parameters::{Discretization, Resolution};
+use uam::parameters::{Discretization, Hold, Resolution};
 use uam::scenarios::default_parameters;
 use uam::{Parameters, Structure};
 
@@ -30,9 +30,25 @@ impl std::fmt::Display for Method {
     }
 }
 
-const METHODS: [Method; 3] = [
+const METHODS: [Method; 7] = [
     Method { name: "minimum_norm", change: |parameters| parameters.ik.resolution = Resolution::MinimumNorm },
     Method { name: "extended_jacobian", change: |parameters| parameters.ik.resolution = Resolution::ExtendedJacobian },
+    Method { name: "gradient", change: |parameters| parameters.ik.resolution = Resolution::Gradient },
+    Method { name: "least_squares", change: |parameters| parameters.ik.resolution = Resolution::LeastSquares },
+    Method {
+        name: "least_squares, limited",
+        change: |parameters| {
+            parameters.ik.resolution = Resolution::LeastSquares;
+            parameters.joints.iter_mut().for_each(|joint| joint.rate_limit = 0.3);
+        },
+    },
+    Method {
+        name: "extended_jacobian, first_order",
+        change: |parameters| {
+            parameters.ik.resolution = Resolution::ExtendedJacobian;
+            parameters.ik.hold = Hold::FirstOrder;
+        },
+    },
     Method {
         name: "extended_jacobian, limited",
         change: |parameters| {

@@ -9,7 +9,7 @@ use std::cell::RefCell;
 use divan::Bencher;
 use nalgebra::SVector;
 use uam::dynamics::Dynamics;
-use uam::parameters::{Balance, BaseModel};
+use uam::parameters::{Actuation, Balance, BaseModel};
 use uam::scenarios::default_parameters;
 use uam::{Parameters, Structure};
 
@@ -55,6 +55,14 @@ fn step_with_rigid_gains(bencher: Bencher<'_, '_>) {
         let autopilot = &mut parameters.autopilot;
         (autopilot.altitude.kp, autopilot.altitude.ki, autopilot.altitude.kd) = (1000.0, 500.0, 500.0);
         (autopilot.roll.kp, autopilot.roll.ki, autopilot.roll.kd) = (600.0, 500.0, 30.0);
+    });
+}
+
+/// The same with so many joints, the inner ones, that no motor moves: more states, and links that whip about.
+#[divan::bench(args = [1, 3], sample_size = STEPS)]
+fn step_with_free_joints(bencher: Bencher<'_, '_>, free: usize) {
+    run(bencher, Structure::DEFAULT, |parameters| {
+        parameters.joints.iter_mut().take(free).for_each(|joint| joint.actuation = Actuation::Torque);
     });
 }
 

@@ -4,13 +4,14 @@
 
 #![allow(clippy::unwrap_used, reason = "a benchmark that cannot start has nothing to say")]
 
+use std::cell::RefCell;
 use std::path::Path;
 use std::sync::LazyLock;
 
 use divan::Bencher;
 use divan::counter::ItemsCount;
 use fmu_build::coupling::{Coupling, Order, Pair, Schedule};
-use fmu_build::fmu::{Fmu, Instance, Selection, Value};
+use fmu_build::fmu::{Causality, Fmu, Instance, Selection, Value, Values};
 use fmu_build::{BuildOptions, Built, build};
 use uam::Structure;
 use uam::options::Choice;
@@ -34,6 +35,14 @@ fn pair() -> Pair {
     Pair::open(&BUILT.controller, &BUILT.plant).unwrap()
 }
 
+/// The FMUs of a vehicle with this number of links.
+fn pair_with(links: usize) -> Pair {
+    let structure = Structure { links, ..Structure::DEFAULT };
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("benches-{links}"));
+    let built = build(&BuildOptions::new(structure, folder), &|_| {}).unwrap();
+    Pair::open(&built.controller, &built.plant).unwrap()
+}
+
 /// From the file to an instance: unpacking, loading of the library, `fmi2Instantiate`.
 #[divan::bench]
 fn open_and_instantiate() -> Instance {
@@ -47,25 +56,117 @@ fn instantiate(bencher: Bencher<'_, '_>) {
     bencher.bench_local(|| drop(pair.plant.instantiate("plant").unwrap()));
 }
 
-/// A step of the plant, with all inputs set before it and all outputs got after it.
-#[divan::bench(sample_size = 1000)]
-fn plant_step_with_all_values(bencher: Bencher<'_, '_>) {
+/// A step of the plant, with all inputs set before it and all outputs got after it, by number of links.
+#[divan::bench(args = [1, 2, 3, 4, 5, 6], sample_size = 1000)]
+fn plant_step_with_all_values(bencher: Bencher<'_, '_>, links: usize) {
+    let pair = pair_with(links);
+    let mut unit = Stepped::new(&pair.plant);
+    bencher.bench_local(|| unit.step());
+}
+
+/// The same for the controller.
+#[divan::bench(args = [1, 2, 3, 4, 5, 6], sample_size = 1000)]
+fn controller_step_with_all_values(bencher: Bencher<'_, '_>, links: usize) {
+    let pair = pair_with(links);
+    let mut unit = Stepped::new(&pair.controller);
+    bencher.bench_local(|| unit.step());
+}
+
+thread_local! {
+    static OWN: RefCell<Stepped> = RefCell::new(Stepped::new(&pair().plant));
+}
+
+/// A plant in each of several threads: time per step of one of them.
+#[divan::bench(threads = [1, 2, 4], sample_size = 1000)]
+fn plant_step_in_threads(bencher: Bencher<'_, '_>) {
+    bencher.bench(|| OWN.with_borrow_mut(Stepped::step));
+}
+
+/// Of which unit a state is copied.
+#[derive(Debug, Clone, Copy)]
+enum Side {
+    Plant,
+    Controller,
+}
+
+const SIDES: [Side; 2] = [Side::Plant, Side::Controller];
+
+/// `fmi2GetFMUstate` into a state that is there.
+#[divan::bench(args = SIDES)]
+fn get_state(bencher: Bencher<'_, '_>, side: Side) {
+    let mut unit = saved(side);
+    bencher.bench_local(|| unit.save().unwrap());
+}
+
+/// `fmi2SetFMUstate`.
+#[divan::bench(args = SIDES)]
+fn set_state(bencher: Bencher<'_, '_>, side: Side) {
+    let mut unit = saved(side);
+    bencher.bench_local(|| unit.restore().unwrap());
+}
+
+/// `fmi2SerializedFMUstateSize` and `fmi2SerializeFMUstate`.
+#[divan::bench(args = SIDES)]
+fn serialize_state(bencher: Bencher<'_, '_>, side: Side) {
+    let mut unit = saved(side);
+    bencher.bench_local(|| unit.saved_bytes().unwrap());
+}
+
+/// `fmi2DeSerializeFMUstate` into a state that is there.
+#[divan::bench(args = SIDES)]
+fn deserialize_state(bencher: Bencher<'_, '_>, side: Side) {
+    let mut unit = saved(side);
+    let bytes = unit.saved_bytes().unwrap();
+    bencher.bench_local(|| unit.save_bytes(&bytes).unwrap());
+}
+
+/// A unit after its first step, with its state saved.
+fn saved(side: Side) -> Instance {
     let pair = pair();
-    let description = pair.plant.description();
-    let names = |causality| description.with(causality).map(|variable| variable.name.as_str());
-    let inputs = Selection::new(description, names(fmu_build::fmu::Causality::Input)).unwrap();
-    let outputs = Selection::new(description, names(fmu_build::fmu::Causality::Output)).unwrap();
-    let (given, mut seen) = (inputs.values(), outputs.values());
-    let mut plant = pair.plant.instantiate("plant").unwrap();
-    plant.enter_initialization(0.0, 1e6).unwrap();
-    plant.exit_initialization().unwrap();
-    let mut steps = 0_u32;
-    bencher.bench_local(|| {
-        plant.set(&inputs, &given).unwrap();
-        plant.do_step(f64::from(steps) * STEP, STEP).unwrap();
-        plant.get(&outputs, &mut seen).unwrap();
-        steps += 1;
-    });
+    let mut unit = match side {
+        Side::Plant => pair.plant.instantiate("plant"),
+        Side::Controller => pair.controller.instantiate("controller"),
+    }
+    .unwrap();
+    start(&mut unit);
+    unit.do_step(0.0, STEP).unwrap();
+    unit.save().unwrap();
+    unit
+}
+
+fn start(unit: &mut Instance) {
+    unit.enter_initialization(0.0, 1e6).unwrap();
+    unit.exit_initialization().unwrap();
+}
+
+/// A unit that is stepped on and on, with all its inputs and outputs.
+struct Stepped {
+    unit: Instance,
+    inputs: Selection,
+    outputs: Selection,
+    given: Values,
+    seen: Values,
+    steps: u32,
+}
+
+impl Stepped {
+    fn new(fmu: &Fmu) -> Self {
+        let description = fmu.description();
+        let select = |causality| {
+            Selection::new(description, description.with(causality).map(|variable| variable.name.as_str())).unwrap()
+        };
+        let (inputs, outputs) = (select(Causality::Input), select(Causality::Output));
+        let mut unit = fmu.instantiate("unit").unwrap();
+        start(&mut unit);
+        Self { unit, given: inputs.values(), seen: outputs.values(), inputs, outputs, steps: 0 }
+    }
+
+    fn step(&mut self) {
+        self.unit.set(&self.inputs, &self.given).unwrap();
+        self.unit.do_step(f64::from(self.steps) * STEP, STEP).unwrap();
+        self.unit.get(&self.outputs, &mut self.seen).unwrap();
+        self.steps += 1;
+    }
 }
 
 /// The pick-up of thesis 4.3, both units, all connected values, no recording. Items are simulated seconds:

@@ -139,3 +139,29 @@ fn what_is_no_fmu_is_refused() {
     let text = Fmu::open(&path).unwrap_err().to_string();
     assert!(text.contains("no zip archive"), "{text}");
 }
+
+#[test]
+fn a_saved_state_brings_an_instance_back_also_as_bytes() {
+    let pair = common::pair();
+    let [mut plant, mut other] = ["plant", "other"].map(|name| pair.plant.instantiate(name).unwrap());
+    assert!(plant.restore().is_err(), "nothing is saved");
+    for unit in [&mut plant, &mut other] {
+        unit.enter_initialization(0.0, 1.0).unwrap();
+        unit.exit_initialization().unwrap();
+    }
+    plant.set_value("joint[1].rate_command", Value::Real(0.5)).unwrap();
+    plant.do_step(0.0, 0.1).unwrap();
+    plant.save().unwrap();
+    let bytes = plant.saved_bytes().unwrap();
+    plant.do_step(0.1, 0.1).unwrap();
+    let went_on = plant.value("base.roll").unwrap();
+    plant.restore().unwrap();
+    other.save_bytes(&bytes).unwrap();
+    other.restore().unwrap();
+    for unit in [&mut plant, &mut other] {
+        assert_ne!(unit.value("base.roll").unwrap(), went_on);
+        unit.do_step(0.1, 0.1).unwrap();
+        assert_eq!(unit.value("base.roll").unwrap(), went_on);
+    }
+    assert!(other.save_bytes(&bytes[1..]).is_err());
+}

@@ -6,6 +6,8 @@ use super::Error;
 
 /// `fmi2Component`.
 pub type Component = *mut c_void;
+/// `fmi2FMUstate`.
+pub type State = *mut c_void;
 /// `fmi2CoSimulation`, an item of `fmi2Type`.
 pub const CO_SIMULATION: c_int = 1;
 
@@ -65,4 +67,10 @@ functions! {
     set_real = "fmi2SetReal": fn(Component, *const c_uint, usize, *const c_double) -> c_int;
     set_integer = "fmi2SetInteger": fn(Component, *const c_uint, usize, *const c_int) -> c_int;
     set_boolean = "fmi2SetBoolean": fn(Component, *const c_uint, usize, *const c_int) -> c_int;
+    get_state = "fmi2GetFMUstate": fn(Component, *mut State) -> c_int;
+    set_state = "fmi2SetFMUstate": fn(Component, State) -> c_int;
+    free_state = "fmi2FreeFMUstate": fn(Component, *mut State) -> c_int;
+    state_size = "fmi2SerializedFMUstateSize": fn(Component, State, *mut usize) -> c_int;
+    serialize = "fmi2SerializeFMUstate": fn(Component, State, *mut c_char, usize) -> c_int;
+    deserialize = "fmi2DeSerializeFMUstate": fn(Component, *const c_char, usize, *mut State) -> c_int;
 }

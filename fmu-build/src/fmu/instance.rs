@@ -26,6 +26,8 @@ pub struct Instance {
     log: Rc<Log>,
     /// The standard lets units keep the pointer to this.
     _callbacks: Rc<c::Callbacks>,
+    /// What was saved last, or null.
+    saved: c::State,
     /// After `fmi2Fatal` nothing may be called any more, not even to free.
     dead: bool,
 }
@@ -77,7 +79,15 @@ impl Instance {
         };
         let name = name.to_owned();
         match NonNull::new(component) {
-            Some(component) => Ok(Self { name, component, loaded, log, _callbacks: callbacks, dead: false }),
+            Some(component) => Ok(Self {
+                name,
+                component,
+                loaded,
+                log,
+                _callbacks: callbacks,
+                saved: std::ptr::null_mut(),
+                dead: false,
+            }),
             None => Err(Error::Instantiate { unit: name, messages: log.drain() }),
         }
     }
@@ -199,6 +209,51 @@ impl Instance {
         self.set(&selection, &values)
     }
 
+    /// Saves the state in the instance; what was saved before is overwritten.
+    ///
+    /// # Errors
+    /// If the unit refuses.
+    pub fn save(&mut self) -> Result<(), Error> {
+        let mut saved = self.saved;
+        let result = self.call("fmi2GetFMUstate", |f, c| unsafe { (f.get_state)(c, &raw mut saved) });
+        self.saved = saved;
+        result
+    }
+
+    /// Goes back to the state that was saved last.
+    ///
+    /// # Errors
+    /// If the unit refuses, as it does when nothing was saved.
+    pub fn restore(&mut self) -> Result<(), Error> {
+        let saved = self.saved;
+        self.call("fmi2SetFMUstate", |f, c| unsafe { (f.set_state)(c, saved) })
+    }
+
+    /// The state that was saved last, as bytes.
+    ///
+    /// # Errors
+    /// If the unit refuses, as it does when nothing was saved.
+    pub fn saved_bytes(&mut self) -> Result<Vec<u8>, Error> {
+        let (saved, mut size) = (self.saved, 0);
+        self.call("fmi2SerializedFMUstateSize", |f, c| unsafe { (f.state_size)(c, saved, &raw mut size) })?;
+        let mut bytes = vec![0_u8; size];
+        let place = bytes.as_mut_ptr().cast();
+        self.call("fmi2SerializeFMUstate", |f, c| unsafe { (f.serialize)(c, saved, place, size) })?;
+        Ok(bytes)
+    }
+
+    /// Takes a state from bytes for the saved one.
+    ///
+    /// # Errors
+    /// If the unit refuses, for instance because the bytes are not a state of it.
+    pub fn save_bytes(&mut self, bytes: &[u8]) -> Result<(), Error> {
+        let (mut saved, from) = (self.saved, bytes.as_ptr().cast());
+        let result = self
+            .call("fmi2DeSerializeFMUstate", |f, c| unsafe { (f.deserialize)(c, from, bytes.len(), &raw mut saved) });
+        self.saved = saved;
+        result
+    }
+
     fn functions(&self) -> &c::Functions {
         &self.loaded.functions
     }
@@ -260,8 +315,13 @@ impl Instance {
 impl Drop for Instance {
     fn drop(&mut self) {
         if !self.dead {
-            // SAFETY: the component is alive, and nobody can use it after this.
-            unsafe { (self.loaded.functions.free_instance)(self.component.as_ptr()) };
+            // SAFETY: the component is alive, the state is one of its own or null, and nobody can use either after this.
+            unsafe {
+                if !self.saved.is_null() {
+                    (self.loaded.functions.free_state)(self.component.as_ptr(), &raw mut self.saved);
+                }
+                (self.loaded.functions.free_instance)(self.component.as_ptr());
+            }
         }
     }
 }
