@@ -55,6 +55,10 @@ LIMITS = {
 }
 
 
+# What initialization refuses.
+CONTRADICTIONS = [("least_squares", "first_order"), ("acceleration_level", "zero_order")]
+
+
 def in_contact(_: Instance, plant: Instance) -> bool:
     return plant.get("payload.attached") == 1.0 and plant.get("support.force") > 0.0
 
@@ -87,7 +91,7 @@ def methods() -> list[Case]:
         for resolution in items["ik.resolution"]
         for discretization in items["ik.discretization"]
         for hold in items["ik.hold"]
-        if (resolution, hold) != ("least_squares", "first_order")
+        if (resolution, hold) not in CONTRADICTIONS
     ]
 
 
@@ -104,7 +108,13 @@ CASES = [
         Structure(2, "counterweight"),
         lambda controller, _: controller.get("counterweight.rate_command") != 0.0,
     ),
-    Case("balance element", HURRY | GRASPED, Structure(3, "balance_element")),
+    Case("balance element at rest", HURRY | GRASPED, Structure(3, "balance_element")),
+    Case(
+        "balance element",
+        HURRY | GRASPED | {"ik.resolution": "acceleration_level", "ik.hold": "first_order"},
+        Structure(3, "balance_element"),
+        lambda controller, _: controller.get("balance_element.rate_command") != 0.0,
+    ),
     Case(
         "a joint driven by a torque",
         HURRY | GRASPED | {"joint[3].actuation": "torque"},
