@@ -36,10 +36,17 @@ fn right_hand_side<const N: usize>(bencher: Bencher<'_, '_>) {
     });
 }
 
-/// A millisecond with the gains of the pick-up and all outputs, by number of links.
+/// A millisecond with the gains of the pick-up, by number of links.
 #[divan::bench(args = [1, 2, 3, 4, 5, 6], sample_size = STEPS)]
 fn step(bencher: Bencher<'_, '_>, number: usize) {
     run(bencher, links(number), |_| {});
+}
+
+/// The same with all outputs, most of which are computed when they are asked for.
+#[divan::bench(sample_size = STEPS)]
+fn step_with_outputs(bencher: Bencher<'_, '_>) {
+    let mut plant = PlantRun::new(Structure::DEFAULT, default_parameters(Structure::DEFAULT));
+    bencher.bench_local(|| plant.observed_step());
 }
 
 /// The same with a counterweight, by number of links.

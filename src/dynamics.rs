@@ -27,7 +27,7 @@ pub use driven::{Driven, Torques};
 pub use instant::Instant;
 pub use law::Node;
 pub use loads::{Load, Loads};
-pub use rates::{Rates, Trace};
+pub use rates::Rates;
 
 use crate::autopilot::{Autopilot, AutopilotMode, Gains};
 use crate::error::{Error, Result};

@@ -136,10 +136,19 @@ pub struct Rates {
 
 /// A plant of any number of coordinates.
 pub trait Simulation: Memory + Send {
-    /// Writes the outputs before the first step.
-    fn initial_outputs(&self, outputs: &mut Outputs);
+    /// Writes all outputs before the first step.
+    ///
+    /// # Errors
+    /// If one is not finite.
+    fn initial_outputs(&self, outputs: &mut Outputs) -> Result<()> {
+        self.write_state(outputs);
+        self.observe(outputs)
+    }
 
-    /// Advances from `t`, counted from the start, by `size` \[s\].
+    /// Writes the part of the outputs that is the state.
+    fn write_state(&self, outputs: &mut Outputs);
+
+    /// Advances from `t`, counted from the start, by `size` \[s\], and writes the part of the outputs that is the state.
     ///
     /// # Errors
     /// If the state is no longer finite.
@@ -151,6 +160,12 @@ pub trait Simulation: Memory + Send {
         size: f64,
         outputs: &mut Outputs,
     ) -> Result<()>;
+
+    /// Writes all other outputs at the end of the finished step, or at the start.
+    ///
+    /// # Errors
+    /// If one is not finite.
+    fn observe(&self, outputs: &mut Outputs) -> Result<()>;
 
     /// How fast the outputs of the finished step change at its end.
     fn rates(&self) -> Rates;

@@ -142,6 +142,8 @@ pub struct Variable<D> {
     pub initially_from: &'static [&'static str],
     /// How it changes with time, if hosts may read that (outputs) or give it (inputs).
     pub derivative: Option<Derivative<D>>,
+    /// Whether it is an output that is computed when the host asks for it.
+    pub on_demand: bool,
 }
 
 impl<D> Variable<D> {
@@ -167,7 +169,7 @@ impl<D> Variable<D> {
 }
 
 /// A name without its indices.
-fn plain(name: &str) -> String {
+pub(crate) fn plain(name: &str) -> String {
     name.split('[').map(|part| part.split_once(']').map_or(part, |(_, rest)| rest)).collect()
 }
 
@@ -209,6 +211,13 @@ impl<D> Table<D> {
             if let Some((_, derivative)) = derivatives.iter().find(|(candidate, _)| *candidate == name) {
                 variable.derivative = Some(*derivative);
             }
+        }
+    }
+
+    /// Says which outputs, named without indices, are computed when the host asks for one of them.
+    pub fn postpone(&mut self, outputs: &[&str]) {
+        for variable in &mut self.variables {
+            variable.on_demand = outputs.contains(&variable.plain_name().as_str());
         }
     }
 
@@ -319,6 +328,7 @@ impl<D> Group<'_, D> {
             index: self.index,
             initially_from: self.initially_from,
             derivative: None,
+            on_demand: false,
         });
         self
     }

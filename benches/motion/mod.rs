@@ -91,6 +91,12 @@ impl PlantRun {
         self
     }
 
+    /// A step, and all outputs after it.
+    pub fn observed_step(&mut self) {
+        self.step();
+        self.simulation.observe(&mut self.outputs).unwrap();
+    }
+
     pub fn simulation(&self) -> &dyn Simulation {
         self.simulation.as_ref()
     }

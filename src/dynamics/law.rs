@@ -219,9 +219,14 @@ impl<const N: usize> Dynamics<N> {
     /// Moment of weight and outer loads on what the UAV carries, about the UAV's centre of mass \[N m\].
     #[inline]
     pub(super) fn carried_moment(&self, turn: Turn, node: &Node<N>, load: &Load, support: f64) -> f64 {
-        let posture = &node.posture;
-        let pushed = cross(turn.apply(posture.end_effector), load.tip_force) + turn.apply(posture.payload).x * support;
-        load.tip_torque + pushed - turn.apply(node.matrix.first).x * self.vehicle.gravity
+        let mut moment = -turn.apply(node.matrix.first).x * self.vehicle.gravity;
+        if load.pushes_arm() || support != 0.0 {
+            let posture = &node.posture;
+            moment += load.tip_torque
+                + cross(turn.apply(posture.end_effector), load.tip_force)
+                + turn.apply(posture.payload).x * support;
+        }
+        moment
     }
 
     /// Force of the support on the payload, upwards \[N\].

@@ -79,6 +79,12 @@ impl Load {
         torque: 0.0,
     };
 
+    /// Whether there is any force or torque on the end effector.
+    #[inline]
+    pub(super) fn pushes_arm(&self) -> bool {
+        self.tip_force.x != 0.0 || self.tip_force.y != 0.0 || self.tip_torque != 0.0
+    }
+
     /// What acts after the time `t` \[s\] at this `slope`.
     #[cold]
     #[inline(never)]

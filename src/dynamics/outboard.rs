@@ -16,15 +16,20 @@ impl<const N: usize> Dynamics<N> {
         let (vehicle, posture, turn) = (&self.vehicle, &node.posture, carrier.turn);
         let mut sum = outboard_drift(vehicle, posture, held, carrier.motion, &node.rate);
 
-        let gravity = turn.undo(vec2(0.0, -vehicle.gravity));
-        let tip = turn.undo(load.tip_force);
-        let lift = turn.undo(vec2(0.0, carrier.support));
-        let pushed = load.tip_torque + cross(posture.end_effector, tip) + cross(posture.payload, lift);
-        // Also for what stands in for a link in the place of a balancer, which is written over below.
         let drift = sum[N - 1];
-        for i in 0..N {
-            sum[i] += cross(node.matrix.outboard_first[i], gravity) + pushed - cross(posture.joint[i], tip + lift);
+        let gravity = turn.undo(vec2(0.0, -vehicle.gravity));
+        for (sum, first) in sum.iter_mut().zip(&node.matrix.outboard_first) {
+            *sum += cross(*first, gravity);
         }
+        if load.pushes_arm() || carrier.support != 0.0 {
+            let tip = turn.undo(load.tip_force);
+            let lift = turn.undo(vec2(0.0, carrier.support));
+            let pushed = load.tip_torque + cross(posture.end_effector, tip) + cross(posture.payload, lift);
+            for (sum, joint) in sum.iter_mut().zip(&posture.joint) {
+                *sum += pushed - cross(*joint, tip + lift);
+            }
+        }
+        // What stands in for a link in the place of a balancer was pushed along.
         match vehicle.balancer {
             None => {}
             Some(Balancer::Counterweight(slider)) => sum[N - 1] = drift + slider.mass * gravity.x,

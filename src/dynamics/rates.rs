@@ -4,30 +4,8 @@ use nalgebra::{SVector, Vector3};
 
 use super::{Dynamics, Load, Loads, Situation, in_inertial_frame};
 use crate::autopilot::AutopilotMode;
-use crate::memory;
 use crate::momentum::{Twist, inertial_load, tip_acceleration};
 use crate::planar::{Vec2, cross, vec2};
-
-/// What of a finished step decides how things change at its end.
-#[derive(Debug, Clone, Copy)]
-pub struct Trace<const N: usize> {
-    /// Accelerations of the coordinates \[rad/s2, m/s2\].
-    pub slope: SVector<f64, N>,
-    /// Acceleration of the base \[m/s2, m/s2, rad/s2\].
-    pub acceleration: Vector3<f64>,
-    /// Rates of thrust \[N/s\] and torque \[N m/s\]; 0 on an ideal carriage and between samples.
-    pub control: Vec2,
-}
-
-memory!(Trace<N> { slope, acceleration, control });
-
-impl<const N: usize> Trace<N> {
-    /// Nothing moves.
-    #[must_use]
-    pub fn at_rest() -> Self {
-        Self { slope: SVector::zeros(), acceleration: Vector3::zeros(), control: Vec2::zeros() }
-    }
-}
 
 /// See [`Dynamics::rates_at_end`]; inertial frame, left limits.
 #[derive(Debug, Clone, Copy)]
@@ -41,11 +19,16 @@ pub struct Rates {
 }
 
 impl<const N: usize> Dynamics<N> {
-    /// What changes how fast at the end of a step that ended in `situation` and left this trace.
+    /// What changes how fast at the end of a step that ended in `situation`, while the coordinates accelerate by
+    /// `slope` \[rad/s2, m/s2\] and the base by `acceleration` \[m/s2, m/s2, rad/s2\].
     #[must_use]
-    pub fn rates_at_end(&self, situation: &Situation<N>, trace: &Trace<N>) -> Rates {
+    pub fn rates_at_end(
+        &self,
+        situation: &Situation<N>,
+        slope: &SVector<f64, N>,
+        acceleration: &Vector3<f64>,
+    ) -> Rates {
         let Situation { state, turn, node } = situation;
-        let Trace { slope, acceleration, .. } = trace;
         let base = Twist { linear: turn.undo(acceleration.xy()), angular: acceleration.z };
         let posture = &node.posture;
 

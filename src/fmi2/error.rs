@@ -127,6 +127,14 @@ pub enum Error {
         /// What the model says.
         reason: String,
     },
+    /// Outputs that the model could not compute.
+    #[error("the outputs at t = {time} s: {reason}")]
+    Outputs {
+        /// The communication point \[s\].
+        time: f64,
+        /// What the model says.
+        reason: String,
+    },
     /// A model description that belongs to another library.
     #[error(transparent)]
     Identity(#[from] Box<UnknownGuid>),

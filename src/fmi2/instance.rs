@@ -40,13 +40,15 @@ struct Situation<M: Model> {
     stop_time: Option<f64>,
     /// The present communication point.
     time: f64,
+    /// Whether also the outputs on demand in `data` are those of the present communication point.
+    observed: bool,
 }
 
 impl<M: Model> Clone for Situation<M> {
     // One copy of it in the library: it is long, and needed in many places.
     #[inline(never)]
     fn clone(&self) -> Self {
-        let Self { state, data, model, start_time, stop_time, time } = self;
+        let Self { state, data, model, start_time, stop_time, time, observed } = self;
         Self {
             state: *state,
             data: data.clone(),
@@ -54,13 +56,22 @@ impl<M: Model> Clone for Situation<M> {
             start_time: *start_time,
             stop_time: *stop_time,
             time: *time,
+            observed: *observed,
         }
     }
 }
 
 impl<M: Model> Situation<M> {
     fn new(start: M::Data) -> Self {
-        Self { state: State::Instantiated, data: start, model: None, start_time: 0.0, stop_time: None, time: 0.0 }
+        Self {
+            state: State::Instantiated,
+            data: start,
+            model: None,
+            start_time: 0.0,
+            stop_time: None,
+            time: 0.0,
+            observed: true,
+        }
     }
 }
 
@@ -104,6 +115,8 @@ impl<M: Model> Instance<M> {
     /// Gives the simulation up: after this only what [`State::Failed`] allows is possible.
     pub fn fail(&mut self) {
         self.now.state = State::Failed;
+        // Nothing more is computed.
+        self.now.observed = true;
     }
 
     /// Sets start and, if there is one, stop time. May be left out (start at 0) or repeated.
@@ -183,6 +196,7 @@ impl<M: Model> Instance<M> {
         match outcome {
             Ok(()) => {
                 self.go_to(step.to());
+                self.now.observed = false;
                 Ok(())
             }
             Err(reason) => {
@@ -190,6 +204,22 @@ impl<M: Model> Instance<M> {
                 Err(Error::Step { from, size, reason })
             }
         }
+    }
+
+    /// Makes the outputs on demand agree with the present communication point, if they do not yet.
+    ///
+    /// # Errors
+    /// If they cannot be computed; the instance has failed then.
+    fn observe(&mut self) -> Result<(), Error> {
+        if self.now.observed {
+            return Ok(());
+        }
+        self.now.observed = true;
+        let outcome = self.now.model.as_ref().map_or(Ok(()), |model| model.observe(&mut self.now.data));
+        outcome.map_err(|error| {
+            self.fail();
+            Error::Outputs { time: self.now.time, reason: error.to_string() }
+        })
     }
 
     fn checked_step(&self, from: f64, size: f64) -> Result<CommunicationStep, Error> {
@@ -230,16 +260,19 @@ impl<M: Model> Instance<M> {
     /// Reads variables. Before the simulation, outputs are those that initialization would give.
     ///
     /// # Errors
-    /// If a reference is unknown, a variable cannot be read as `T`, or an output is asked for while the
-    /// parameters do not go together.
+    /// If a reference is unknown, a variable cannot be read as `T`, an output is asked for while the parameters do not
+    /// go together, or the outputs of the finished step have no values.
     pub fn get<T: Scalar>(&mut self, references: &[u32], values: &mut [T]) -> Result<(), Error> {
         self.permit(T::GET)?;
-        let variables = self.table.variables();
-        let is_output = |reference: &u32| {
-            lookup(variables, *reference).is_ok_and(|variable| variable.causality == Causality::Output)
+        let asked_for = |which: fn(&Variable<M::Data>) -> bool| {
+            references.iter().any(|reference| lookup(self.table.variables(), *reference).is_ok_and(which))
         };
-        if self.now.state.precedes_simulation() && references.iter().any(is_output) {
-            self.initialize()?;
+        if self.now.state.precedes_simulation() {
+            if asked_for(|variable| variable.causality == Causality::Output) {
+                self.initialize()?;
+            }
+        } else if !self.now.observed && asked_for(|variable| variable.on_demand) {
+            self.observe()?;
         }
         for (reference, value) in references.iter().zip(values) {
             let variable = lookup(self.table.variables(), *reference)?;

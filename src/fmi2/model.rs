@@ -62,11 +62,23 @@ pub trait Model: Memory + Clone + Send + Sized + 'static {
     /// If the parameters do not go together.
     fn initialize(structure: Self::Structure, data: &mut Self::Data, start_time: f64) -> Result<Self, Self::Error>;
 
-    /// Advances by one communication step: reads inputs and tunable parameters, writes outputs.
+    /// Advances by one communication step: reads inputs and tunable parameters, writes the outputs that are not
+    /// computed on demand.
     ///
     /// # Errors
     /// If the simulation cannot go on; it is not stepped again then.
     fn step(&mut self, data: &mut Self::Data, step: CommunicationStep) -> Result<(), Self::Error>;
+
+    /// Writes the outputs on demand ([`crate::variables::Variable::on_demand`]) into `data`: called when the host asks
+    /// for one of them for the first time after a step. Parameters and inputs may have changed since; outputs are
+    /// those of the step.
+    ///
+    /// # Errors
+    /// If an output has no value; the simulation is not stepped again then.
+    fn observe(&self, data: &mut Self::Data) -> Result<(), Self::Error> {
+        let _ = data;
+        Ok(())
+    }
 
     /// Writes those derivatives of outputs into `data` that the last step did not, for the present time,
     /// `elapsed` since the start \[s\].

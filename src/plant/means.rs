@@ -7,6 +7,7 @@
 use nalgebra::{SVector, Vector3};
 
 use super::Outputs;
+use crate::autopilot::AutopilotMode;
 use crate::dynamics::{Account, Dynamics, Impulse, Load, Situation};
 use crate::memory;
 use crate::momentum;
@@ -16,9 +17,27 @@ use crate::vehicle::Vehicle;
 /// A step shorter than this keeps the previous means and adds its impulse to the next ones \[s\].
 const SHORTEST: f64 = 1e-9;
 
-/// Impulses since the last means, and the motion at that time.
+/// Mean forces and torques.
+#[derive(Debug, Clone, Copy)]
+struct Values<const N: usize> {
+    /// Thrust \[N\] and torque \[N m\] of the rotors.
+    control: Vec2,
+    /// Force on the UAV of all that it carries \[N\].
+    force: Vec2,
+    /// Moment of that about the UAV's centre of mass \[N m\].
+    moment: f64,
+    /// Torques and forces of the motors \[N m, N\].
+    effort: SVector<f64, N>,
+    /// Force of the held payload on the arm \[N\].
+    payload: Vec2,
+}
+
+memory!(Values<N> { control, force, moment, effort, payload });
+
+/// The last means, impulses since then, and the motion at that time.
 #[derive(Debug, Clone)]
 pub(super) struct Means<const N: usize> {
+    values: Values<N>,
     impulse: Impulse,
     /// Of what each coordinate moves, its motor excepted \[N m s, N s\]; see [`Account`].
     outboard_impulse: SVector<f64, N>,
@@ -32,12 +51,27 @@ pub(super) struct Means<const N: usize> {
     payload: Vec2,
 }
 
-memory!(Means<N> { impulse, outboard_impulse, time, velocity, outboard, payload });
+memory!(Means<N> { values, impulse, outboard_impulse, time, velocity, outboard, payload });
 
 impl<const N: usize> Means<N> {
-    /// Everything at rest.
-    pub(super) fn at_rest() -> Self {
+    /// Everything is at rest in `situation`, without payload, and the means are what keeps it so.
+    pub(super) fn at_rest(dynamics: &Dynamics<N>, situation: &Situation<N>) -> Self {
+        let (vehicle, node) = (&dynamics.vehicle, &situation.node);
+        let weight = vec2(0.0, -node.matrix.mass * vehicle.gravity);
+        let moment = -node.matrix.first.x * vehicle.gravity;
+        let values = Values {
+            control: match dynamics.autopilot.mode {
+                AutopilotMode::Ideal => vec2(-weight.y, -moment),
+                AutopilotMode::Pid => vec2(-weight.y, 0.0),
+                AutopilotMode::External => Vec2::zeros(),
+            },
+            force: vec2(0.0, -vehicle.carried_mass() * vehicle.gravity),
+            moment,
+            effort: SVector::from_fn(|i, _| node.matrix.outboard_first[i].x * vehicle.gravity),
+            payload: Vec2::zeros(),
+        };
         Self {
+            values,
             impulse: Impulse::NONE,
             outboard_impulse: SVector::zeros(),
             time: 0.0,
@@ -63,39 +97,42 @@ impl<const N: usize> Means<N> {
         self.outboard += outboard_momentum(vehicle, situation, false) - outboard_momentum(vehicle, situation, true);
     }
 
-    /// Writes the means up to `situation`, and begins new ones; `load`: mean over the step.
-    pub(super) fn write(
-        &mut self,
-        dynamics: &Dynamics<N>,
-        situation: &Situation<N>,
-        load: &Load,
-        outputs: &mut Outputs,
-    ) {
+    /// Takes the means up to `situation`, and begins new ones; `load`: mean over the step.
+    pub(super) fn close(&mut self, dynamics: &Dynamics<N>, situation: &Situation<N>, load: &Load) {
         if self.time < SHORTEST {
             return;
         }
         let (vehicle, state, per_time) = (&dynamics.vehicle, &situation.state, 1.0 / self.time);
         let change = (state.velocity - self.velocity) * per_time;
-        let impulse = &self.impulse;
-        outputs.transmitted_force = change.xy() * vehicle.uav_mass - impulse.thrust * per_time - load.base_force
+        let (impulse, values) = (&self.impulse, &mut self.values);
+        values.force = change.xy() * vehicle.uav_mass - impulse.thrust * per_time - load.base_force
             + vec2(0.0, vehicle.uav_mass * vehicle.gravity);
-        outputs.transmitted_moment = change.z * vehicle.uav_inertia - impulse.torque * per_time - load.base_torque;
-        if dynamics.on_carriage() {
-            (outputs.thrust, outputs.torque) = (impulse.thrust.y * per_time, impulse.torque * per_time);
-        }
+        values.moment = change.z * vehicle.uav_inertia - impulse.torque * per_time - load.base_torque;
+        values.control = vec2(impulse.thrust.y, impulse.torque) * per_time;
 
         let momentum = outboard_momentum(vehicle, situation, state.held);
-        let effort = (momentum - self.outboard - self.outboard_impulse) * per_time;
-        outputs.effort[..N].copy_from_slice(effort.as_slice());
+        values.effort = (momentum - self.outboard - self.outboard_impulse) * per_time;
 
-        let payload = if state.held { payload_momentum(vehicle, situation) } else { Vec2::zeros() };
-        outputs.payload_force = if state.held {
+        if state.held {
+            let payload = payload_momentum(vehicle, situation);
             let weight = vec2(0.0, -vehicle.payload_mass * vehicle.gravity);
-            weight + (vec2(0.0, impulse.support) - (payload - self.payload)) * per_time
+            values.payload = weight + (vec2(0.0, impulse.support) - (payload - self.payload)) * per_time;
+            self.payload = payload;
         } else {
-            Vec2::zeros()
-        };
-        *self = Self { velocity: state.velocity, outboard: momentum, payload, ..Self::at_rest() };
+            (values.payload, self.payload) = (Vec2::zeros(), Vec2::zeros());
+        }
+        (self.velocity, self.outboard) = (state.velocity, momentum);
+        (self.impulse, self.outboard_impulse, self.time) = (Impulse::NONE, SVector::zeros(), 0.0);
+    }
+
+    /// Writes the last means.
+    pub(super) fn write(&self, outputs: &mut Outputs) {
+        let values = &self.values;
+        (outputs.thrust, outputs.torque) = (values.control.x, values.control.y);
+        outputs.transmitted_force = values.force;
+        outputs.transmitted_moment = values.moment;
+        outputs.effort[..N].copy_from_slice(values.effort.as_slice());
+        outputs.payload_force = values.payload;
     }
 }
 

@@ -4,12 +4,12 @@ use nalgebra::SVector;
 
 use super::means::Means;
 use super::{Inputs, Outputs, Rates, Simulation};
-use crate::autopilot::AutopilotMode;
 use crate::bytes::{Memory, Tape};
-use crate::dynamics::{Driven, Dynamics, Load, Loads, Motion, Situation, Torques, Trace};
+use crate::dynamics::{Driven, Dynamics, Instant, Load, Loads, Motion, Situation, Torques};
 use crate::error::Result;
+use crate::memory;
 use crate::parameters::{BaseModel, Parameters, Structure};
-use crate::planar::{Vec2, vec2};
+use crate::planar::Vec2;
 
 /// An aerial manipulator with `N` coordinates, simulated.
 #[derive(Debug, Clone)]
@@ -19,8 +19,36 @@ pub struct Plant<const N: usize> {
     means: Means<N>,
     /// Joints driven by torques, if there are any.
     driven: Option<Driven<N>>,
-    /// Of the finished step.
-    trace: Trace<N>,
+    finished: Option<Finished<N>>,
+}
+
+/// What of a finished step decides what can be observed at its end, beside the state.
+#[derive(Debug, Clone, Copy)]
+struct Finished<const N: usize> {
+    /// Accelerations of the coordinates at the end \[rad/s2, m/s2\].
+    slope: SVector<f64, N>,
+    /// Loads at the beginning.
+    begin: Load,
+    /// Change of the loads per second, if there was any.
+    change: Option<Load>,
+    /// Length \[s\].
+    size: f64,
+    /// When it ended, counted from the start \[s\].
+    end: f64,
+}
+
+memory!(Finished<N> { slope, begin, change, size, end });
+
+impl<const N: usize> Default for Finished<N> {
+    fn default() -> Self {
+        Self { slope: SVector::zeros(), begin: Load::NONE, change: None, size: 0.0, end: 0.0 }
+    }
+}
+
+impl<const N: usize> Finished<N> {
+    fn loads(&self) -> Loads<'_> {
+        Loads { begin: self.begin, slope: self.change.as_ref() }
+    }
 }
 
 impl<const N: usize> Plant<N> {
@@ -32,44 +60,29 @@ impl<const N: usize> Plant<N> {
         let dynamics = Dynamics::new(structure, parameters, BaseModel::Full)?;
         let situation = dynamics.start(parameters);
         let driven = dynamics.driven(parameters, &situation)?;
-        Ok(Self { dynamics, situation, means: Means::at_rest(), driven, trace: Trace::at_rest() })
+        let means = Means::at_rest(&dynamics, &situation);
+        Ok(Self { dynamics, situation, means, driven, finished: None })
     }
 
-    fn write_state(&self, outputs: &mut Outputs) {
-        let Situation { state, turn, node } = &self.situation;
-        let tip = node.posture.end_effector;
-        let tip_velocity = node.velocity_at(&self.dynamics.vehicle, tip, self.situation.base());
-        outputs.pose = state.pose;
-        outputs.velocity = state.velocity;
-        outputs.position[..N].copy_from_slice(state.position.as_slice());
-        outputs.rate[..N].copy_from_slice(state.rate.as_slice());
-        outputs.end_effector = self.situation.place(tip);
-        outputs.end_effector_velocity = turn.apply(tip_velocity);
-        outputs.momentum = state.momentum;
-        outputs.center_of_mass = self.situation.place(node.matrix.first / node.matrix.mass);
-        outputs.attached = state.held;
+    /// What can be said of the end of a step, and how fast the autopilot changes thrust and torque there.
+    fn at_end(&self, finished: &Finished<N>) -> (Instant, Vec2) {
+        let (loads, mut room) = (finished.loads(), Load::NONE);
+        let load = loads.present(finished.size, &mut room);
+        let now = self.dynamics.at_end(&self.situation, &finished.slope, load);
+        let control = self.dynamics.control_rate(&self.situation, &now.acceleration, &loads, finished.size);
+        (now, control)
     }
 }
 
 impl<const N: usize> Simulation for Plant<N> {
-    fn initial_outputs(&self, outputs: &mut Outputs) {
-        *outputs = Outputs::default();
-        self.write_state(outputs);
-        // What holds everything at rest.
-        let (vehicle, node) = (&self.dynamics.vehicle, &self.situation.node);
-        let weight = vec2(0.0, -node.matrix.mass * vehicle.gravity);
-        let moment = -node.matrix.first.x * vehicle.gravity;
-        let control = match self.dynamics.autopilot.mode {
-            AutopilotMode::Ideal => vec2(-weight.y, -moment),
-            AutopilotMode::Pid => vec2(-weight.y, 0.0),
-            AutopilotMode::External => Vec2::zeros(),
-        };
-        (outputs.thrust, outputs.torque) = (control.x, control.y);
-        outputs.transmitted_force = vec2(0.0, -vehicle.carried_mass() * vehicle.gravity);
-        outputs.transmitted_moment = moment;
-        for (effort, outboard) in outputs.effort.iter_mut().zip(&node.matrix.outboard_first) {
-            *effort = outboard.x * vehicle.gravity;
-        }
+    fn write_state(&self, outputs: &mut Outputs) {
+        let state = &self.situation.state;
+        outputs.pose = state.pose;
+        outputs.velocity = state.velocity;
+        outputs.position[..N].copy_from_slice(state.position.as_slice());
+        outputs.rate[..N].copy_from_slice(state.rate.as_slice());
+        outputs.momentum = state.momentum;
+        outputs.attached = state.held;
     }
 
     fn step(
@@ -96,8 +109,8 @@ impl<const N: usize> Simulation for Plant<N> {
             rate: SVector::from_fn(|i, _| inputs.rate_command[i]),
             slope: SVector::from_fn(|i, _| inputs.rate_slope(i)),
         };
-        let loads =
-            Loads { begin: load(inputs), slope: inputs.slopes.as_ref().and_then(|slopes| slopes.load.as_ref()) };
+        let change = inputs.slopes.as_ref().and_then(|slopes| slopes.load.as_ref());
+        let loads = Loads { begin: load(inputs), slope: change };
         let account = self.means.account();
         let (dynamics, situation, mut room) = (&self.dynamics, &mut self.situation, Load::NONE);
         let impulse = if let Some(driven) = &mut self.driven {
@@ -114,36 +127,47 @@ impl<const N: usize> Simulation for Plant<N> {
             dynamics.advance(situation, &motion, &loads, t, size, account)?
         };
         self.situation.state.check(t + size)?;
-
-        self.write_state(outputs);
-        let now = self.dynamics.at_end(&self.situation, &motion.slope, loads.present(size, &mut room));
-        outputs.acceleration = now.acceleration;
-        outputs.support_force = now.support;
-        if !self.dynamics.on_carriage() {
-            (outputs.thrust, outputs.torque) = (now.control.x, now.control.y);
-        }
-        self.trace = Trace {
-            slope: motion.slope,
-            acceleration: now.acceleration,
-            control: self.dynamics.control_rate(&self.situation, &now.acceleration, &loads, size),
-        };
         self.means.add(impulse, size);
-        self.means.write(&self.dynamics, &self.situation, loads.present(0.5 * size, &mut room), outputs);
-        outputs.check(t + size)
+        self.means.close(&self.dynamics, &self.situation, loads.present(0.5 * size, &mut room));
+        let (slope, begin, change) = (motion.slope, loads.begin, change.copied());
+        self.finished = Some(Finished { slope, begin, change, size, end: t + size });
+        self.write_state(outputs);
+        Ok(())
+    }
+
+    fn observe(&self, outputs: &mut Outputs) -> Result<()> {
+        let Situation { turn, node, .. } = &self.situation;
+        let tip = node.posture.end_effector;
+        let tip_velocity = node.velocity_at(&self.dynamics.vehicle, tip, self.situation.base());
+        outputs.end_effector = self.situation.place(tip);
+        outputs.end_effector_velocity = turn.apply(tip_velocity);
+        outputs.center_of_mass = self.situation.place(node.matrix.first / node.matrix.mass);
+        self.means.write(outputs);
+        if let Some(finished) = &self.finished {
+            let (now, _) = self.at_end(finished);
+            outputs.acceleration = now.acceleration;
+            outputs.support_force = now.support;
+            if !self.dynamics.on_carriage() {
+                (outputs.thrust, outputs.torque) = (now.control.x, now.control.y);
+            }
+        }
+        outputs.check(self.finished.map_or(0.0, |finished| finished.end))
     }
 
     fn rates(&self) -> Rates {
-        let now = self.dynamics.rates_at_end(&self.situation, &self.trace);
+        let Some(finished) = &self.finished else { return Rates::default() };
+        let (Instant { acceleration, .. }, control) = self.at_end(finished);
+        let now = self.dynamics.rates_at_end(&self.situation, &finished.slope, &acceleration);
         let mut rates = Rates {
             end_effector_velocity: now.tip_velocity,
-            thrust: self.trace.control.x,
-            torque: self.trace.control.y,
+            thrust: control.x,
+            torque: control.y,
             momentum: now.momentum,
             center_of_mass: self.situation.state.momentum.xy() / self.situation.node.matrix.mass,
             support_force: now.support,
             ..Rates::default()
         };
-        rates.coordinates[..N].copy_from_slice(self.trace.slope.as_slice());
+        rates.coordinates[..N].copy_from_slice(finished.slope.as_slice());
         rates
     }
 
@@ -159,13 +183,13 @@ impl<const N: usize> Simulation for Plant<N> {
 impl<const N: usize> Memory for Plant<N> {
     fn pass(&mut self, tape: &mut Tape<'_>) {
         // Without "..": whoever adds a field decides here whether it follows from the parameters.
-        let Self { dynamics: _, situation, means, driven, trace } = self;
+        let Self { dynamics: _, situation, means, driven, finished } = self;
         situation.pass(tape);
         means.pass(tape);
         if let Some(driven) = driven {
             driven.pass(tape);
         }
-        trace.pass(tape);
+        finished.pass(tape);
     }
 }
 

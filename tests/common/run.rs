@@ -19,12 +19,13 @@ impl Run {
     pub fn new(structure: Structure, parameters: Parameters) -> Self {
         let simulation = plant::new(structure, &parameters).unwrap();
         let mut outputs = Outputs::default();
-        simulation.initial_outputs(&mut outputs);
+        simulation.initial_outputs(&mut outputs).unwrap();
         Self { model: Model { structure, parameters }, inputs: Inputs::default(), outputs, time: 0.0, simulation }
     }
 
     pub fn try_step(&mut self, size: f64) -> uam::Result<()> {
         self.simulation.step(&self.model.parameters, &self.inputs, self.time, size, &mut self.outputs)?;
+        self.simulation.observe(&mut self.outputs)?;
         self.time += size;
         Ok(())
     }
