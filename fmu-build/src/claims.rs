@@ -8,6 +8,8 @@ pub use quantity::{Numbers, Quantity, Shown};
 pub use table::{Cell, Row, Section, Table};
 use thesis::{BASE_MOTION, PICK_UP, REACH, REDUNDANCY, TWO_LINKS};
 
+use crate::variation::Changes;
+
 /// How far the end effector may be from its reference before it counts as having left the workspace \[m\].
 pub const LOST: f64 = 0.01;
 
@@ -35,6 +37,8 @@ pub struct Deviation {
     pub of: [bool; 2],
     /// Why, in a line.
     pub why: &'static str,
+    /// Changes of the scenario, as [`crate::variation::vary`] takes them, with which it does hold; none: no evidence.
+    pub holds_with: Changes<'static>,
 }
 
 impl Claim {

@@ -60,7 +60,7 @@ pub enum Command {
     /// Run every simulation of the thesis and print what it says beside what comes out
     ///
     /// Each runs with both discretizations. Builds the FMUs that this needs.
-    Thesis,
+    Thesis(ThesisArguments),
     /// Run a simulation with some numbers changed, and print what depends on them
     ///
     /// One column for the simulation as it is, and one for each value. Several names take their values together: the
@@ -183,6 +183,14 @@ pub struct SimulateArguments {
     /// Write every output of both units to the csv, not only those in the report
     #[arg(long)]
     pub all_outputs: bool,
+}
+
+/// How to print the statements of the thesis.
+#[derive(Debug, Args)]
+pub struct ThesisArguments {
+    /// Print the table in Markdown, as it stands in the README
+    #[arg(long)]
+    pub markdown: bool,
 }
 
 /// Which simulation, and what to change.

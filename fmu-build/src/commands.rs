@@ -30,7 +30,7 @@ pub fn execute(arguments: &Arguments) -> Result<()> {
         None => pick_up::execute(out),
         Some(Command::Build(arguments)) => build::execute(arguments, out),
         Some(Command::Simulate(simulation)) => simulate::execute(simulation, out),
-        Some(Command::Thesis) => thesis::execute(out),
+        Some(Command::Thesis(arguments)) => thesis::execute(arguments, out),
         Some(Command::Vary(arguments)) => vary::execute(arguments, out),
         Some(Command::Reach(arguments)) => reach::execute(arguments, out),
         Some(Command::Budget) => budget::execute(out),

@@ -223,7 +223,13 @@ pub fn values(summaries: &[Summary], claim: &Claim) -> Option<[f64; 2]> {
         None => [euler, exact],
         Some(other) => {
             let [other_euler, other_exact] = numbers(other)?;
-            [euler / other_euler, exact / other_exact]
+            // What is nothing but rounding compares as if it were as large as that may be.
+            let ratio = |value: f64, other: f64| {
+                let [value, other] = [value, other]
+                    .map(|value| if value.is_nan() { value } else { value.max(claim.quantity.rounding()) });
+                value / other
+            };
+            [ratio(euler, other_euler), ratio(exact, other_exact)]
         }
     })
 }

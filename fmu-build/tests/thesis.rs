@@ -4,22 +4,32 @@
 
 mod common;
 
+use std::path::Path;
+use std::sync::LazyLock;
+
 use fmu_build::claims::{self, Quantity};
 use fmu_build::coupling::{Order, Schedule};
 use fmu_build::record::Names;
 use fmu_build::report;
-use fmu_build::run::run;
-use fmu_build::study::{self, Case};
-use uam::scenarios::catalogue;
+use fmu_build::study::{self, Case, Summary};
+use fmu_build::variation::vary;
+use uam::autopilot::AutopilotMode;
+use uam::parameters::{BaseModel, PathAxes};
+use uam::scenarios::{Scenario, catalogue, find};
+
+/// All simulations of the thesis, run once for all tests.
+static SUMMARIES: LazyLock<Vec<Summary>> = LazyLock::new(|| run(catalogue().unwrap()));
+
+fn run(scenarios: Vec<Scenario>) -> Vec<Summary> {
+    study::run_all(scenarios, &|structure| Some(common::pair_of(structure)), &|| {}).unwrap()
+}
 
 /// Every statement holds with both discretizations, but for those that are marked as deviations: none of these
 /// holds by chance.
 #[test]
 fn every_statement_of_the_thesis_holds_or_is_a_known_deviation() {
-    let scenarios = catalogue().unwrap();
-    let summaries = study::run_all(scenarios, &|structure| Some(common::pair_of(structure)), &|| {}).unwrap();
-    let table = study::table(&summaries);
-    for summary in &summaries {
+    let table = study::table(&SUMMARIES);
+    for summary in SUMMARIES.iter() {
         let id = &summary.scenario.id;
         for outcome in &summary.outcomes {
             assert_eq!(outcome.complaint, None, "{id}");
@@ -28,36 +38,80 @@ fn every_statement_of_the_thesis_holds_or_is_a_known_deviation() {
         assert!(claims::all().any(is_about), "the thesis says nothing of {id}");
     }
     for claim in claims::all() {
-        let values = study::values(&summaries, claim).unwrap();
+        let values = study::values(&SUMMARIES, claim).unwrap();
         for (i, value) in values.into_iter().enumerate() {
-            assert!(value.is_finite() || claim.quantity == Quantity::LostAt, "{claim:?}: {value}");
+            assert!(value.is_finite() || ENDLESS.contains(&claim.quantity), "{claim:?}: {value}");
             assert_eq!(claim.agrees(value), claim.should_agree(i), "{claim:?}: {value}\n{table}");
         }
     }
-    // Where the prediction is what the plant is, and exact, nothing but rounding is left.
-    for id in EXACT {
-        let summary = summaries.iter().find(|summary| summary.scenario.id == id).unwrap();
-        let error = summary.outcomes[1].numbers.get(Quantity::TrackingError);
-        assert!(error <= 1e-9, "{id}: {error}");
+}
+
+/// Times of what may never come.
+const ENDLESS: [Quantity; 2] = [Quantity::LostAt, Quantity::GivesWayAt];
+
+/// What is said to reproduce a statement that does not hold does so.
+#[test]
+fn deviations_go_away_with_the_changes_named() {
+    let deviations = claims::all().filter_map(|claim| Some((claim, claim.deviation?)));
+    let known: Vec<_> = deviations.filter(|(_, deviation)| !deviation.holds_with.is_empty()).collect();
+    assert!(known.len() >= 8);
+    let varied = known.iter().map(|(claim, deviation)| {
+        assert!(claim.compared_with.is_none());
+        vary(&find(claim.scenario).unwrap(), deviation.holds_with).unwrap()
+    });
+    for ((claim, deviation), summary) in known.iter().zip(run(varied.collect())) {
+        for (outcome, deviates) in summary.outcomes.iter().zip(deviation.of) {
+            let value = outcome.numbers.get(claim.quantity);
+            assert!(claim.agrees(value) || !deviates, "{claim:?}: {value}");
+        }
     }
 }
 
-/// Scenarios in which the controller predicts all that the plant does, far from singular configurations and
-/// limits.
-const EXACT: [&str; 12] = [
-    "2.1a",
-    "2.5a",
-    "2.5b",
-    "3.6a",
-    "3.6a-segment",
-    "3.6c",
-    "3.6c-segment",
-    "4.2a",
-    "4.2b",
-    "4.3a",
-    "4.3b",
-    "4.3c-extended-jacobian",
+/// Where the prediction is all that the plant does, and exact, nothing but rounding is left.
+#[test]
+fn exact_plans_leave_no_error_but_for_known_reasons() {
+    for summary in SUMMARIES.iter() {
+        let Scenario { id, parameters, .. } = &summary.scenario;
+        let reason = NOT_FOLLOWED.iter().find(|(scenario, _)| scenario == id).map(|(_, reason)| reason);
+        let ideal = parameters.ik.base_model == BaseModel::Ideal && parameters.autopilot.mode == AutopilotMode::Ideal;
+        if parameters.ik.base_model == BaseModel::Full || ideal {
+            let [_, exact] = &summary.outcomes;
+            let error = exact.numbers.get(match parameters.ik.path_axes {
+                PathAxes::Both => Quantity::TrackingError,
+                PathAxes::Horizontal => Quantity::ErrorX,
+            });
+            assert_eq!(error > 1e-9, reason.is_some(), "{id}: {error:e}; {reason:?}");
+        } else {
+            assert_eq!(reason, None, "{id} predicts less than the plant does");
+        }
+    }
+}
+
+/// Simulations with an error though the base is predicted in full, and why.
+const NOT_FOLLOWED: [(&str, &str); 3] = [
+    ("3.6b", "the first joint has no motor, and the controller does not know"),
+    ("3.6b-segment", "the first joint has no motor, and the controller does not know"),
+    ("4.3c-minimum-norm", "swings until the path is out of reach"),
 ];
+
+/// The table in the pages of this project is the one that `thesis --markdown` prints.
+#[test]
+fn the_pages_hold_the_table_of_these_runs() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let table = study::table(&SUMMARIES).markdown();
+    let mut pages = 0;
+    for page in ["README.md", "docs/thesis.md"] {
+        let text = std::fs::read_to_string(root.join(page)).unwrap();
+        let Some((_, after)) = text.split_once("<!-- begin: thesis --markdown -->\n\n") else { continue };
+        let (found, _) = after.split_once("\n<!-- end -->").unwrap();
+        for (found, wanted) in found.lines().zip(table.lines()) {
+            assert_eq!(found, wanted, "{page}: `cargo run --release -- thesis --markdown` prints the table");
+        }
+        assert_eq!(found.lines().count(), table.lines().count(), "{page}");
+        pages += 1;
+    }
+    assert!(pages > 0);
+}
 
 #[test]
 fn the_pick_up_is_as_the_thesis_says() {
@@ -87,7 +141,7 @@ fn ten_milliseconds_are_enough_without_touching_the_sample_time() {
     for scenario in study::pick_up().unwrap().iter().take(2) {
         let schedule = Schedule::new(0.0, scenario.duration, 0.01).unwrap();
         let names = Names::standard(scenario.structure);
-        let run = run(&common::pair(), scenario, &schedule, Order::Parallel, &names, &|| {}).unwrap();
+        let run = fmu_build::run::run(&common::pair(), scenario, &schedule, Order::Parallel, &names, &|| {}).unwrap();
         let error = Quantity::TrackingError.measure(&run.recording);
         assert!(error <= 5e-7, "{}: {error}", scenario.id);
     }

@@ -280,6 +280,16 @@ impl Quantity {
         }
     }
 
+    /// Numbers smaller than this are nothing but rounding, in SI units; 0 where nothing is lost by it.
+    #[must_use]
+    pub fn rounding(self) -> f64 {
+        match self.reading().1 {
+            Reading::Metres | Reading::MetresPerSecond | Reading::MillimetresPerSecond => 1e-9,
+            Reading::NewtonMetres => 1e-8,
+            _ => 0.0,
+        }
+    }
+
     /// The number as people read it.
     #[must_use]
     pub fn show(self, value: f64) -> Shown {
@@ -353,9 +363,14 @@ pub struct Shown {
 
 impl fmt::Display for Shown {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let value = self.value;
+        let (value, rounding) = (self.value, self.quantity.rounding());
         match self.quantity.reading().1 {
             _ if value.is_nan() => write!(f, "–"),
+            // Alternate: what is nothing but rounding differs from machine to machine.
+            Reading::Metres if f.alternate() && value < rounding => write!(f, "< {rounding:e} m"),
+            Reading::MetresPerSecond if f.alternate() && value < rounding => write!(f, "< {rounding:e} m/s"),
+            Reading::MillimetresPerSecond if f.alternate() && value < rounding => write!(f, "< {rounding:e} m/s"),
+            Reading::NewtonMetres if f.alternate() && value < rounding => write!(f, "< {rounding:e} N m"),
             Reading::Millimetres => readable(f, 1e3 * value, "mm"),
             Reading::Metres => write!(f, "{value:.1e} m"),
             Reading::MillimetresPerSecond => readable(f, 1e3 * value, "mm/s"),

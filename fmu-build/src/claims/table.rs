@@ -4,7 +4,7 @@ use std::fmt;
 
 use comfy_table::ContentArrangement;
 
-use super::{Claim, Quantity};
+use super::{Claim, Deviation, Quantity};
 
 /// Characters per line.
 const WIDTH: u16 = 120;
@@ -28,7 +28,7 @@ pub struct Row {
     /// One measurement per column.
     pub cells: Vec<Cell>,
     /// Why it does not agree, where that is known.
-    pub remark: Option<&'static str>,
+    pub remark: Option<String>,
 }
 
 /// One scenario.
@@ -64,8 +64,10 @@ impl Row {
     /// Numbers beside a claim about them; ratios if the claim compares.
     pub fn of(claim: &Claim, values: impl IntoIterator<Item = f64>) -> Self {
         let show = |value: f64| match claim.compared_with {
-            None => claim.quantity.show(value).to_string(),
+            None => format!("{:#}", claim.quantity.show(value)),
             Some(_) if value.is_nan() => "–".to_owned(),
+            // Against something that is nothing but rounding.
+            Some(_) if value.abs() > 1e3 => "> 1000 times".to_owned(),
             Some(_) if value.abs() < 0.01 => format!("{value:.0e} times"),
             Some(_) => format!("{value:.2} times"),
         };
@@ -77,9 +79,16 @@ impl Row {
                 .into_iter()
                 .map(|value| Cell { text: show(value), agrees: Some(claim.agrees(value)) })
                 .collect(),
-            remark: claim.deviation.map(|deviation| deviation.why),
+            remark: claim.deviation.map(|deviation| remark(claim.scenario, &deviation)),
         }
     }
+}
+
+/// Why a statement does not hold, and what to run to see it hold.
+fn remark(scenario: &str, deviation: &Deviation) -> String {
+    let changes = deviation.holds_with.iter().map(|(name, value)| format!(" {name}={value}")).collect::<String>();
+    let run = if changes.is_empty() { changes } else { format!("; it holds with `vary {scenario}{changes}`") };
+    format!("{}{run}", deviation.why)
 }
 
 impl Table {
@@ -105,9 +114,33 @@ impl Table {
     pub fn remarks(&self) -> impl Iterator<Item = String> {
         self.sections.iter().flat_map(|section| {
             let scenario = section.title.split(' ').next().unwrap_or_default();
-            let remark = |row: &Row| row.remark.map(|why| format!("{scenario}, {}: {why}", row.quantity));
+            let remark = |row: &Row| row.remark.as_ref().map(|why| format!("{scenario}, {}: {why}", row.quantity));
             section.rows.iter().filter_map(remark).collect::<Vec<_>>()
         })
+    }
+
+    /// The table for a page that is written in Markdown, with the reasons below it.
+    #[must_use]
+    pub fn markdown(&self) -> String {
+        let row = |cells: &mut dyn Iterator<Item = String>| {
+            let cells: Vec<String> = cells.map(|cell| cell.replace('|', "\\|")).collect();
+            format!("| {} |\n", cells.join(" | "))
+        };
+        let head = ["simulation", "quantity", "thesis"].map(str::to_owned);
+        let mut text = row(&mut head.into_iter().chain(self.columns.iter().cloned()));
+        text += &row(&mut std::iter::repeat_n("---".to_owned(), 3 + self.columns.len()));
+        for section in &self.sections {
+            let name = section.title.split(' ').next().unwrap_or_default();
+            for (i, Row { quantity, thesis, cells, .. }) in section.rows.iter().enumerate() {
+                let name = if i == 0 { format!("**{name}**") } else { String::new() };
+                let cells = cells.iter().map(|cell| format!("{} {}", cell.text, cell.mark()));
+                let head = [name, quantity.clone(), thesis.unwrap_or_default().to_owned()];
+                text += &row(&mut head.into_iter().chain(cells));
+            }
+        }
+        let (statements, agreeing) = self.agreement();
+        text += &format!("\n{agreeing} of {statements} numbers agree with the thesis. Where one does not:\n\n");
+        self.remarks().fold(text, |text, remark| text + "- " + &remark + "\n")
     }
 
     fn rows(&self) -> impl Iterator<Item = &Row> {

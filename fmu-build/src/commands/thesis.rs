@@ -8,8 +8,9 @@ use fmu_build::study::{self, Outcome};
 use uam::scenarios::catalogue;
 
 use super::{Pairs, Progress};
+use crate::cli::ThesisArguments;
 
-pub fn execute(out: &Path) -> Result<()> {
+pub fn execute(arguments: &ThesisArguments, out: &Path) -> Result<()> {
     let scenarios = catalogue()?;
     let pairs = Pairs::build(out, scenarios.iter().map(|scenario| scenario.structure))?;
     let progress = Progress::of(&scenarios, "Simulating")?;
@@ -20,6 +21,10 @@ pub fn execute(out: &Path) -> Result<()> {
     let summaries = summaries?;
 
     let table = study::table(&summaries);
+    if arguments.markdown {
+        print!("{}", table.markdown());
+        return Ok(());
+    }
     let (statements, agreeing) = table.agreement();
     println!("{table}\n\n{agreeing} of {statements} numbers agree with the thesis.");
     for remark in table.remarks() {
