@@ -51,6 +51,7 @@ impl Leg {
     pub const NONE: Self = Self { start: 0.0, duration: 0.0, ramp: 0.0, dx: 0.0, dy: 0.0, profile: Profile::Smooth };
 
     /// Share of the way (0 to 1), its rate \[1/s\] and its second derivative \[1/s2\] at time `t` \[s\].
+    #[inline]
     #[must_use]
     pub fn progress(&self, t: f64) -> [f64; 3] {
         let elapsed = t - self.start;
@@ -75,6 +76,7 @@ impl Leg {
 
 impl Profile {
     /// Way \[s\], velocity and acceleration \[1/s\] of a ramp from rest to velocity 1, `t` into its `duration`.
+    #[inline]
     fn ramp(self, t: f64, duration: f64) -> [f64; 3] {
         match self {
             Self::Trapezoidal => [0.5 * t * t / duration, t / duration, 1.0 / duration],

@@ -194,6 +194,7 @@ impl Resolver {
     }
 
     /// The largest share of its limit that a rate has, if one exceeds it; 1 if none does.
+    #[inline]
     fn excess<const N: usize>(&self, rate: &SVector<f64, N>) -> f64 {
         let limited = || rate.iter().zip(&self.limits).take(self.links);
         if limited().all(|(rate, limits)| rate.abs() <= limits.rate) {

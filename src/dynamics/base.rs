@@ -23,6 +23,7 @@ use crate::planar::{Turn, Vec2, cross, vec2};
 impl BaseModel {
     /// Motion of the base with the momentum `h` of the whole system and `arm` = `H_m q_dot` of it; linear in
     /// both. `inertia`: that of the UAV alone \[kg m2\]. Axes of the UAV frame.
+    #[inline]
     pub(super) fn velocity<const N: usize>(
         self,
         matrix: &MomentumMatrix<N>,
