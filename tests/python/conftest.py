@@ -32,6 +32,8 @@ DEFAULT = Structure(3)
 BALANCES = ("none", "counterweight", "balance_element")
 ALL = [Structure(links, balance) for links in range(1, 7) for balance in BALANCES]
 SOME = [DEFAULT, Structure(2, "counterweight"), Structure(1, "balance_element"), Structure(6)]
+# Every number of links, and everything that may balance them.
+EVERY_LENGTH = [*SOME, Structure(4, "counterweight"), Structure(5, "balance_element")]
 FULL = bool(os.environ.get("UAM_FULL"))
 
 

@@ -47,6 +47,10 @@ class _Names:
             self._slave.setRealInputDerivatives([reference], [1], [slope])
 
     def get(self, name: str) -> float:
+        """The value of a variable or, as "der(name)", its first derivative."""
+        if name.startswith("der("):
+            reference = self._variables[name[4:-1]].valueReference
+            return float(self._slave.getRealOutputDerivatives([reference], [1])[0])
         variable = self._variables[name]
         return float(self._get[variable.type]([variable.valueReference])[0])
 
