@@ -70,6 +70,14 @@ fn exact(bencher: Bencher<'_, '_>, method: &Method) {
     run(bencher, Structure::DEFAULT, Discretization::Exact, method.change);
 }
 
+/// Accelerations of one link and of the body that balances it (thesis 3.4).
+#[divan::bench(sample_size = STEPS)]
+fn acceleration_level(bencher: Bencher<'_, '_>) {
+    let scenario = uam::scenarios::find("3.4-1").unwrap();
+    let mut controller = ControllerRun::new(scenario.structure, scenario.parameters);
+    bencher.bench_local(|| controller.step());
+}
+
 /// Minimum norm with the step of the thesis, by number of links.
 #[divan::bench(args = [1, 2, 3, 4, 5, 6], sample_size = STEPS)]
 fn euler_by_links(bencher: Bencher<'_, '_>, number: usize) {
