@@ -106,7 +106,7 @@ impl<'a> Guest<'a> {
         value
     }
 
-    /// Checks that every real output, if it can be read, is a number.
+    /// Checks that every real variable, as long as they can be read, is a number.
     ///
     /// # Errors
     /// If one is not.
@@ -115,7 +115,11 @@ impl<'a> Guest<'a> {
             let mut value = f64::NAN;
             let get = self.functions.get_real;
             let status = unsafe { get(self.component, &raw const variable.reference, 1, &raw mut value) };
-            if self.well("fmi2GetReal", status)? && !value.is_finite() {
+            if !self.well("fmi2GetReal", status)? {
+                // Before the simulation, parameters do not go together; in it, the instance has failed.
+                return Ok(());
+            }
+            if !value.is_finite() {
                 return Err(format!("{} is {value} {when}", variable.name));
             }
         }

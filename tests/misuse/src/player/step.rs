@@ -1,6 +1,7 @@
 //! Communication steps, and what is said of them.
 
 use super::{ERROR, OK, Player, Stage};
+use crate::host;
 use crate::hostile::{integer, pointer_mut, real};
 
 // SAFETY, for all calls: every pointer is null, misaligned or good for ROOM elements, and every length is at
@@ -62,12 +63,18 @@ impl Player<'_> {
         Ok(())
     }
 
-    /// Every real output is a number, and all go into the fingerprint.
+    /// Every real output is a number, and all go into the fingerprint; or the instance has failed, and says why.
     pub fn all_finite(&mut self, when: &str) -> Result<(), String> {
         for variable in self.unit.variables.iter().filter(|variable| variable.output && variable.real) {
             let mut value = f64::NAN;
-            let get = self.unit.functions.get_real;
+            let (get, before) = (self.unit.functions.get_real, host::messages());
             let status = unsafe { get(self.component, &raw const variable.reference, 1, &raw mut value) };
+            if status == ERROR && self.stage == Stage::Running {
+                self.stage = Stage::Failed;
+                self.listen(before);
+                let said = !self.told || host::messages() > before && self.last().contains("fmi2GetReal: the outputs");
+                return self.require(said, &format!("{} is refused {when}: {}", variable.name, self.last()));
+            }
             self.require(status == OK && value.is_finite(), &format!("{} is {value} {when}", variable.name))?;
             self.digest.take(&value.to_bits().to_le_bytes());
         }
