@@ -67,9 +67,10 @@ impl Report {
             &self.title,
             &html! {
                 (self.introduction)
-                section { h2 { "What came out" } (table(&self.table)) }
-                @for figure in &self.figures {
+                @for (i, figure) in self.figures.iter().enumerate() {
                     section { figure { h2 { (figure.title) } (figure.body) figcaption { (figure.caption) } } }
+                    // The picture of what happens comes first.
+                    @if i == 0 { section { h2 { "What came out" } (table(&self.table)) } }
                 }
             },
         )

@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use maud::{Markup, html};
 use uam::planar::{Turn, Vec2, vec2};
+use uam::reference::ReferenceKind;
 
 use super::Series;
 use super::decimate::envelope;
@@ -29,8 +30,14 @@ pub fn instants(series: &Series<'_>) -> Vec<f64> {
     let (Some(&start), Some(&stop)) = (recording.times().first(), recording.times().last()) else {
         return Vec::new();
     };
-    let legs = series.run.scenario.parameters.reference.legs.iter().filter(|leg| leg.duration > 0.0);
-    let mut events: Vec<f64> = legs.flat_map(|leg| [leg.start, leg.start + leg.duration]).collect();
+    let reference = &series.run.scenario.parameters.reference;
+    let legs = reference.legs.iter().filter(|leg| leg.duration > 0.0);
+    let mut events: Vec<f64> = match reference.kind {
+        ReferenceKind::Circle => [0.3, 0.5, 0.7].map(|share| share * reference.circle.duration).into(),
+        ReferenceKind::Path | ReferenceKind::External => {
+            legs.flat_map(|leg| [leg.start, leg.start + leg.duration]).collect()
+        }
+    };
     events.sort_by(f64::total_cmp);
     let apart = 0.04 * (stop - start);
     let mut chosen = vec![start];
@@ -114,7 +121,7 @@ fn strip(series: &Series<'_>, frames: &[(f64, Pose)], window: Window) -> Markup 
             @for (i, (time, pose)) in frames.iter().enumerate() {
                 g transform={ "translate(" (f64::from(u32::try_from(i).unwrap_or(u32::MAX)) * (size.x + gap)) " " (TITLE) ")" } {
                     rect x="0" y="0" width=(size.x) height=(size.y) rx="6" fill="#fafbfc" stroke="#e8ecf0" {}
-                    text x="4" y="-7" { "t = " (time) " s" }
+                    text x="4" y="-7" { "t = " ((1e3 * time).round() / 1e3) " s" }
                     (frame(series, pose, capture, window))
                 }
             }

@@ -1,6 +1,8 @@
 //! The figures of a report: what is drawn, and how to read it.
 
 use maud::{Markup, PreEscaped, html};
+use uam::controller::Status;
+use uam::options::Choice;
 use uam::parameters::Balance;
 
 use super::chart::{Curve, Panel, Scale, TIME};
@@ -18,6 +20,8 @@ pub enum Topic {
     Error,
     /// Joint angles and counterweight.
     Joints,
+    /// Rates of joints and counterweight, and what limits them.
+    Rates,
     /// Thrust and torque of the rotors.
     Controls,
     /// Moment of the arm on the UAV.
@@ -138,6 +142,41 @@ fn joints(series: &[Series<'_>]) -> Result<Figure, Error> {
         body: grid(series, &panels)?,
         caption: "Angle of each link against the previous one, of the first against the UAV's downward axis."
             .to_owned(),
+    })
+}
+
+/// Commanded rates, and how they came about where something stands in the way of the path or of the moment.
+///
+/// # Errors
+/// If the figure cannot be drawn.
+pub fn rates(series: &[Series<'_>]) -> Result<Figure, Error> {
+    let Some(Series { run, .. }) = series.first() else { return Err(Error::Empty) };
+    let structure = run.scenario.structure;
+    let joint = |n| panel(series, &format!("joint {n} [rad/s]"), &format!("joint[{n}].rate_command"), 1.0, None);
+    let mut panels: Vec<Panel> = (1..=structure.links).map(joint).collect();
+    if let Some(name) = structure.balance.prefix() {
+        let (axis, factor) = match structure.balance {
+            Balance::Counterweight => ("counterweight [mm/s]", 1e3),
+            _ => ("balance element [rad/s]", 1.0),
+        };
+        panels.push(panel(series, axis, &format!("{name}.rate_command"), factor, None));
+    }
+    let status = run.recording.column("ik.status");
+    let met: Vec<String> = Status::Ok
+        .items()
+        .iter()
+        .zip(1..)
+        .filter(|(_, number)| status.contains(&f64::from(*number)))
+        .map(|(item, number)| format!("{number} {}: {}", item.name, item.description))
+        .collect();
+    if met.len() > 1 {
+        panels.push(panel(series, "ik.status", "ik.status", 1.0, None));
+    }
+    Ok(Figure {
+        topic: Topic::Rates,
+        title: "Rates and what limits them".to_owned(),
+        body: grid(series, &panels)?,
+        caption: format!("What the controller sends. Its status in this run: {}", met.join(" ")),
     })
 }
 

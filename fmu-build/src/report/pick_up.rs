@@ -96,7 +96,7 @@ fn remark(topic: Topic, [extended, minimum]: &[Series<'_>; 2]) -> String {
             shown(minimum, Quantity::TrackingError),
         ),
         Topic::Joints => "Both follow the same path of the end effector with different joint motions.".to_owned(),
-        Topic::Reach => String::new(),
+        Topic::Rates | Topic::Reach => String::new(),
         Topic::Controls => format!(
             "The torque needed to hold the roll is {} at most with minimum norm, {} with the extended Jacobian. The thrust \
              rises by the weight of the payload.",

@@ -3,7 +3,7 @@
 use maud::html;
 use uam::options::Choice;
 
-use super::{Error, Report, Series, figures, style};
+use super::{Error, Report, Series, Topic, figures, style};
 use crate::claims::{self, Claim, Quantity, Row, Table};
 use crate::coupling::Schedule;
 use crate::run::Run;
@@ -30,6 +30,9 @@ pub fn report(run: &Run, schedule: &Schedule) -> Result<Report, Error> {
     };
     table.add(&scenario.id, Quantity::ALL.into_iter().filter_map(row).collect());
     let series = [Series { label: &scenario.id, paint: style::MAIN, run }];
+    let mut figures = figures::all(&series)?;
+    let after_joints = figures.iter().position(|figure| figure.topic == Topic::Joints).map_or(0, |joints| joints + 1);
+    figures.insert(after_joints, figures::rates(&series)?);
     Ok(Report {
         title: format!("{}: {}", scenario.id, scenario.title),
         introduction: html! {
@@ -41,6 +44,6 @@ pub fn report(run: &Run, schedule: &Schedule) -> Result<Report, Error> {
             @if let Some(complaint) = run.complaint() { p { strong { "The run did not reach its end: " (complaint) } } }
         },
         table,
-        figures: figures::all(&series)?,
+        figures,
     })
 }
