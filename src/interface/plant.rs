@@ -95,7 +95,11 @@ impl Model for PlantUnit {
     }
 
     fn observe(&self, data: &mut Data) -> Result<(), Error> {
-        self.0.observe(&mut data.outputs)
+        // A copy, so that a failure leaves nothing that is not finite.
+        let mut outputs = data.outputs.clone();
+        self.0.observe(&mut outputs)?;
+        data.outputs = outputs;
+        Ok(())
     }
 
     fn differentiate(&self, data: &mut Data, _: f64) {
