@@ -56,14 +56,16 @@ pub struct Variant {
     pub watch: Watch,
 }
 
-const EXACT: Variant = Variant {
+/// The start values of the units.
+pub const EXACT: Variant = Variant {
     discretization: Discretization::Exact,
     hold: Hold::ZeroOrder,
     order: Order::Parallel,
     pilot: Pilot::Continuous,
     watch: Watch::Samples,
 };
-const EULER: Variant = Variant { discretization: Discretization::Euler, ..EXACT };
+/// The thesis' step.
+pub const EULER: Variant = Variant { discretization: Discretization::Euler, ..EXACT };
 
 /// What is compared: the start values of the units, the thesis' step, and each with one thing changed.
 pub const VARIANTS: [Variant; 14] = [

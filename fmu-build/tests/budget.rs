@@ -4,9 +4,9 @@
 
 mod common;
 
-use fmu_build::budget::{Errors, Pilot, VARIANTS, Variant, Watch, observed_order};
+use fmu_build::budget::{EULER, EXACT, Errors, Pilot, VARIANTS, Variant, Watch, observed_order};
 use fmu_build::coupling::Order;
-use uam::parameters::{Discretization, Hold};
+use uam::parameters::Hold;
 use uam::scenarios::{Scenario, find};
 
 /// The pick-up until the payload is held and the way back has begun.
@@ -26,15 +26,6 @@ fn order(variant: &Variant, steps: [f64; 3], of: fn(&Errors) -> f64) -> f64 {
     assert!(order.is_some(), "{points:?} shows no order");
     order.unwrap()
 }
-
-const EXACT: Variant = Variant {
-    discretization: Discretization::Exact,
-    hold: Hold::ZeroOrder,
-    order: Order::Parallel,
-    pilot: Pilot::Continuous,
-    watch: Watch::Samples,
-};
-const EULER: Variant = Variant { discretization: Discretization::Euler, ..EXACT };
 
 #[test]
 fn the_step_of_the_thesis_is_of_order_one() {

@@ -2,11 +2,12 @@
 
 use comfy_table::presets::UTF8_FULL_CONDENSED;
 use maud::{Markup, PreEscaped, html};
+use uam::parameters::Discretization;
 use uam::scenarios::Scenario;
 
 use super::chart::{self, Across, Panel, Scale};
 use super::{Error, Paint, page};
-use crate::budget::{Curve, Errors, STEPS, Watch, observed_order};
+use crate::budget::{Curve, EULER, Errors, Pilot, STEPS, Variant, observed_order};
 use crate::coupling::Order;
 
 /// Errors that users may ask for \[m\].
@@ -121,16 +122,14 @@ pub fn html(scenario: &Scenario, curves: &[Curve]) -> Result<String, Error> {
 }
 
 fn figure(curves: &[Curve], measure: &Measure) -> Result<Markup, Error> {
-    // A plant that steps first gives what a parallel master gives, and would hide it.
-    let shown: Vec<(&Curve, Paint)> = curves
-        .iter()
-        .filter(|curve| curve.variant.order != Order::PlantFirst)
-        .zip(0..)
-        .map(|(curve, number): (&Curve, usize)| {
-            let paint = Paint { rgb: COLOURS[number % COLOURS.len()], width: 4 };
-            (curve, if curve.variant.watch == Watch::Between || number >= COLOURS.len() { paint.pale() } else { paint })
-        })
-        .collect();
+    // What coincides with another curve would hide it.
+    let apart = |&curve: &&Curve| {
+        let Variant { discretization, order, pilot, .. } = curve.variant;
+        let known = pilot != Pilot::Sampled && order != Order::PlantFirst;
+        curve.variant == EULER || (discretization == Discretization::Exact && known)
+    };
+    let paints = COLOURS.into_iter().map(|rgb| Paint { rgb, width: 4 });
+    let shown: Vec<(&Curve, Paint)> = curves.iter().filter(apart).zip(paints).collect();
     let line = |(curve, paint): &(&Curve, Paint)| chart::Curve { paint: *paint, points: curve.of(measure.of) };
     let panel = Panel {
         across: Across { axis: "communication step [s]", scale: Scale::Logarithmic },
@@ -160,7 +159,7 @@ fn figure(curves: &[Curve], measure: &Measure) -> Result<Markup, Error> {
 fn table(head: &[String], rows: &[Vec<String>]) -> Markup {
     html! {
         div.wide {
-            table {
+            table.numbers {
                 thead { tr { @for cell in head { th { (cell) } } } }
                 tbody { @for row in rows { tr { @for cell in row { td { (cell) } } } } }
             }
