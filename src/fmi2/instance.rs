@@ -1,5 +1,7 @@
 //! One instance of a model, as the standard sees it, in safe Rust.
 
+use std::cell::OnceCell;
+
 use super::error::Error;
 use super::identity::Identity;
 use super::model::{CommunicationStep, Model};
@@ -27,6 +29,8 @@ pub struct Instance<M: Model> {
     unit: Identity<M>,
     table: Table<M::Data>,
     now: Situation<M>,
+    /// The beginning of states as bytes, once there were any.
+    title: OnceCell<String>,
 }
 
 /// All that influences the future of an instance; a saved FMU state is a copy of this.
@@ -80,7 +84,7 @@ impl<M: Model> Instance<M> {
     #[must_use]
     pub fn new(unit: Identity<M>) -> Self {
         let (table, now) = (unit.table(), Situation::new(unit.start.clone()));
-        let mut instance = Self { unit, table, now };
+        let mut instance = Self { unit, table, now, title: OnceCell::new() };
         instance.go_to(0.0);
         instance
     }

@@ -48,8 +48,8 @@ pub unsafe fn free_fmu_state<M: Model>(handle: Handle, state: *mut c::FmuState) 
 pub unsafe fn serialized_fmu_state_size<M: Model>(handle: Handle, state: c::FmuState, size: *mut c::Size) -> Status {
     // SAFETY: promised by the caller.
     unsafe {
-        component::call::<M>(handle, Call::SerializedFMUstateSize, |_| {
-            *arguments::place("size", size)? = with(state, Saved::<M>::to_bytes)?.len();
+        component::call::<M>(handle, Call::SerializedFMUstateSize, |instance| {
+            *arguments::place("size", size)? = with(state, |saved| instance.write_saved(saved))?.len();
             Ok(())
         })
     }
@@ -64,8 +64,8 @@ pub unsafe fn serialize_fmu_state<M: Model>(
 ) -> Status {
     // SAFETY: promised by the caller.
     unsafe {
-        component::call::<M>(handle, Call::SerializeFMUstate, |_| {
-            let bytes = with(state, Saved::<M>::to_bytes)?;
+        component::call::<M>(handle, Call::SerializeFMUstate, |instance| {
+            let bytes = with(state, |saved| instance.write_saved(saved))?;
             let place = arguments::list_mut("serializedState", place.cast::<u8>(), size)?;
             let Some((room, rest)) = place.split_at_mut_checked(bytes.len()) else {
                 return Err(Error::Argument {

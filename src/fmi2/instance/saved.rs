@@ -46,12 +46,7 @@ impl<M: Model> Instance<M> {
     /// If it belongs to an instance of another structure.
     pub fn restore(&mut self, saved: &Saved<M>) -> Result<(), Error> {
         self.permit(Call::SetFMUstate)?;
-        if saved.structure != self.unit.structure {
-            return Err(Error::OtherStructure {
-                expected: self.unit.structure.to_string(),
-                found: saved.structure.to_string(),
-            });
-        }
+        self.check_structure(saved)?;
         self.now.clone_from(&saved.then);
         Ok(())
     }
@@ -62,9 +57,47 @@ impl<M: Model> Instance<M> {
     /// If they are not what [`Saved::to_bytes`] gave for this unit and structure.
     pub fn read_saved(&self, bytes: &[u8]) -> Result<Saved<M>, Error> {
         self.permit(Call::DeSerializeFMUstate)?;
-        let content = unwrap(&title::<M>(self.unit.structure), bytes)?;
+        let content = unwrap(self.title(), bytes)?;
         let then = self.read_situation(content).map_err(|reason| Error::Content { reason })?;
         Ok(Saved { structure: self.unit.structure, then })
+    }
+
+    /// A state as bytes that outlive the process.
+    ///
+    /// # Errors
+    /// If it belongs to an instance of another structure.
+    pub fn write_saved(&self, saved: &Saved<M>) -> Result<Vec<u8>, Error> {
+        self.check_structure(saved)?;
+        let mut content = Vec::new();
+        let mut tape = Tape::recording(&mut content);
+        let mut then = saved.then.clone();
+        let mut has_model = then.model.is_some();
+        then.pass(&self.table, &mut has_model, &mut tape);
+        if let Some(model) = &mut then.model {
+            model.pass(&mut tape);
+        }
+        let mut all = self.title().as_bytes().to_vec();
+        all.extend((content.len() as u64).to_le_bytes());
+        all.extend(content);
+        all.extend(fnv1a(&all).to_le_bytes());
+        Ok(all)
+    }
+
+    fn check_structure(&self, saved: &Saved<M>) -> Result<(), Error> {
+        if saved.structure == self.unit.structure {
+            return Ok(());
+        }
+        let (expected, found) = (self.unit.structure.to_string(), saved.structure.to_string());
+        Err(Error::OtherStructure { expected, found })
+    }
+
+    /// What the bytes of every state of this structure begin with, whatever start values the unit has: a state has
+    /// them all. The GUID in it takes longer than all the rest.
+    fn title(&self) -> &str {
+        self.title.get_or_init(|| {
+            let guid = Identity::<M>::of(self.unit.structure).guid();
+            format!("FMI 2.0 state, format {FORMAT}, {} {} {guid}\n", M::IDENTIFIER, env!("CARGO_PKG_VERSION"))
+        })
     }
 
     fn read_situation(&self, content: &[u8]) -> Result<Situation<M>, String> {
@@ -94,33 +127,6 @@ impl<M: Model> Instance<M> {
     }
 }
 
-impl<M: Model> Saved<M> {
-    /// The state as bytes that outlive the process.
-    ///
-    /// # Errors
-    /// If the model cannot write itself.
-    pub fn to_bytes(&self) -> Result<Vec<u8>, Error> {
-        let content = self.content();
-        let mut all = title::<M>(self.structure).into_bytes();
-        all.extend((content.len() as u64).to_le_bytes());
-        all.extend(content);
-        all.extend(fnv1a(&all).to_le_bytes());
-        Ok(all)
-    }
-
-    fn content(&self) -> Vec<u8> {
-        let mut content = Vec::new();
-        let mut tape = Tape::recording(&mut content);
-        let mut then = self.then.clone();
-        let mut has_model = then.model.is_some();
-        then.pass(&M::table(self.structure), &mut has_model, &mut tape);
-        if let Some(model) = &mut then.model {
-            model.pass(&mut tape);
-        }
-        content
-    }
-}
-
 impl<M: Model> Situation<M> {
     /// Passes all but the model by a tape.
     fn pass(&mut self, table: &Table<M::Data>, has_model: &mut bool, tape: &mut Tape<'_>) {
@@ -141,12 +147,6 @@ impl<M: Model> Situation<M> {
         M::pass_unnamed(data, tape);
         has_model.pass(tape);
     }
-}
-
-/// What every state of this structure begins with, whatever start values the unit has: a state has them all.
-fn title<M: Model>(structure: M::Structure) -> String {
-    let (name, version, guid) = (M::IDENTIFIER, env!("CARGO_PKG_VERSION"), Identity::<M>::of(structure).guid());
-    format!("FMI 2.0 state, format {FORMAT}, {name} {version} {guid}\n")
 }
 
 /// The content of bytes that are complete and belong to `title`.
