@@ -6,6 +6,7 @@ mod exact;
 mod limits;
 mod method;
 mod outset;
+mod plan;
 mod planner;
 mod prediction;
 mod resolution;

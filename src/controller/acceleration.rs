@@ -17,7 +17,7 @@ use super::Status;
 use super::exact::{INEXACT, ITERATIONS, NO_IMPULSE, ON_REFERENCE};
 use super::limits::Allowed;
 use super::outset::Outset;
-use super::planner::Plan;
+use super::plan::Plan;
 use super::prediction::Prediction;
 use super::resolution::{Problem, Task};
 use super::response::Response;

@@ -4,7 +4,7 @@
 //! the arm oscillates in its null space.
 
 use super::outset::Outset;
-use super::planner::Plan;
+use super::plan::Plan;
 use super::prediction::Prediction;
 use super::resolution::{Problem, Task};
 use crate::dynamics::Motion;

@@ -9,7 +9,7 @@ use nalgebra::SVector;
 
 use super::Status;
 use super::outset::Outset;
-use super::planner::Plan;
+use super::plan::Plan;
 use super::prediction::Prediction;
 use super::resolution::{Problem, Task};
 use crate::dynamics::{Account, Loads, Motion, Situation};

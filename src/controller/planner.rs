@@ -7,16 +7,17 @@ use nalgebra::SVector;
 
 use super::exact::INEXACT;
 use super::outset::Outset;
+use super::plan::Plan;
 use super::prediction::Prediction;
 use super::resolution::Resolver;
 use super::{Inputs, Outputs, Planner, Rates, Status};
 use crate::autopilot::AutopilotMode;
 use crate::bytes::{Memory, Tape};
-use crate::dynamics::{Dynamics, Load, Motion, Situation, check_finite};
+use crate::dynamics::{Dynamics, Load, Motion, Situation};
 use crate::error::{Error, Result};
 use crate::parameters::{Discretization, Hold, Parameters, Structure};
 use crate::planar::Vec2;
-use crate::qp::{self, Places};
+use crate::qp;
 use crate::reference::{Reference, ReferenceKind, Target};
 
 /// Sample instants this share of a sample time ahead are reached.
@@ -33,44 +34,6 @@ const UNFORESEEN: f64 = 2.0;
 
 /// A target nearer than this is not said to be out of what one interval may make good \[m\].
 const SHORTENED: f64 = 1e-9;
-
-/// Rates for one interval.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Plan<const N: usize> {
-    pub motion: Motion<N>,
-    pub status: Status,
-    /// Which rates are at their limits.
-    pub places: Places,
-    pub min_singular_value: f64,
-    pub velocity_residual: f64,
-    pub moment_residual: f64,
-}
-
-impl<const N: usize> Plan<N> {
-    /// A plan to be made, so far of this motion.
-    pub fn moving(motion: Motion<N>) -> Self {
-        Self {
-            motion,
-            status: Status::Ok,
-            places: qp::FREE,
-            min_singular_value: 0.0,
-            velocity_residual: 0.0,
-            moment_residual: 0.0,
-        }
-    }
-
-    /// Whether all that the host will see of it is finite.
-    fn check(&self, t: f64) -> Result<()> {
-        let residuals = [self.velocity_residual, self.moment_residual, self.min_singular_value];
-        let Motion { rate, slope } = &self.motion;
-        if (rate.sum() + slope.sum() + residuals.iter().sum::<f64>()).is_finite() {
-            return Ok(());
-        }
-        let quantities =
-            [("planned rate", rate.as_slice()), ("planned acceleration", slope.as_slice()), ("residual", &residuals)];
-        check_finite(&quantities, t)
-    }
-}
 
 /// Inverse kinematics of an aerial manipulator with `N` coordinates, with its prediction.
 #[derive(Debug, Clone, Copy)]
