@@ -11,7 +11,7 @@ use std::process::Command;
 use fmu_build::compile::target_libraries;
 use fmu_build::coupling::Pair;
 use fmu_build::cross::{TARGETS, Target, Toolchain};
-use fmu_build::fmu::Value;
+use fmu_build::fmu::{Fmu, Value};
 use fmu_build::platform::DARWIN64;
 use fmu_build::units::Unit;
 use fmu_build::{BuildOptions, Built, build};
@@ -117,17 +117,43 @@ fn check(built: &Built, target: &Target, processors: &[Architecture], systems: &
     }
 }
 
-/// Where the UAV is after a second with its first joint moving.
-const OUTPUTS: [&str; 4] = ["base.x", "base.y", "base.roll", "autopilot.thrust"];
+/// A second of a unit with one input set, and where it ends.
+struct Trial {
+    unit: fn(Structure) -> Unit,
+    file: fn(&Built) -> &PathBuf,
+    fmu: fn(&Pair) -> &Fmu,
+    input: &'static str,
+    outputs: [&'static str; 4],
+}
 
-fn end(plant: &fmu_build::fmu::Fmu) -> Vec<f64> {
-    let mut plant = plant.instantiate("plant").unwrap();
-    plant.enter_initialization(0.0, 2.0).unwrap();
-    plant.exit_initialization().unwrap();
-    plant.set_value("joint[1].rate_command", Value::Real(0.5)).unwrap();
-    (0..1000).for_each(|n| plant.do_step(f64::from(n) * 1e-3, 1e-3).unwrap());
-    let values = OUTPUTS.map(|name| plant.value(name).unwrap());
-    values.map(|value| if let Value::Real(value) = value { value } else { panic!("no number") }).to_vec()
+const TRIALS: [Trial; 2] = [
+    Trial {
+        unit: Unit::plant,
+        file: |built| &built.plant,
+        fmu: |pair| &pair.plant,
+        input: "joint[1].rate_command",
+        outputs: ["base.x", "base.y", "base.roll", "autopilot.thrust"],
+    },
+    // It follows its own path, whatever comes from outside.
+    Trial {
+        unit: Unit::controller,
+        file: |built| &built.controller,
+        fmu: |pair| &pair.controller,
+        input: "external_reference.x",
+        outputs: ["joint[1].rate_command", "joint[3].rate_command", "predicted.base.y", "reference.y"],
+    },
+];
+
+impl Trial {
+    fn end(&self, pair: &Pair) -> Vec<f64> {
+        let mut unit = (self.fmu)(pair).instantiate("unit").unwrap();
+        unit.enter_initialization(0.0, 2.0).unwrap();
+        unit.exit_initialization().unwrap();
+        unit.set_value(self.input, Value::Real(0.5)).unwrap();
+        (0..1000).for_each(|n| unit.do_step(f64::from(n) * 1e-3, 1e-3).unwrap());
+        let values = self.outputs.map(|name| unit.value(name).unwrap());
+        values.map(|value| if let Value::Real(value) = value { value } else { panic!("no number") }).to_vec()
+    }
 }
 
 #[test]
@@ -142,7 +168,9 @@ fn linux64_runs_with_old_systems() {
     if cfg!(all(target_os = "linux", target_arch = "x86_64")) {
         let own = build(&BuildOptions::new(Structure::DEFAULT, built.plant.with_file_name("own")), &|_| ()).unwrap();
         let [built, own] = [built, own].map(|built| Pair::open(&built.controller, &built.plant).unwrap());
-        assert_eq!(end(&built.plant), end(&own.plant));
+        for trial in &TRIALS {
+            assert_eq!(trial.end(&built), trial.end(&own));
+        }
     }
 }
 
@@ -172,32 +200,35 @@ fn win64_runs_under_wine_and_agrees() {
     let compiled =
         Command::new("x86_64-w64-mingw32-gcc").args(compiler).args([path("host.exe"), source]).status().unwrap();
     assert!(compiled.success());
-    fs::write(path("plant.dll"), library(&built_for_windows.plant, target)).unwrap();
-
-    let interface = Unit::plant(Structure::DEFAULT).interface;
-    let reference =
-        |name: &str| interface.variables.iter().position(|variable| variable.name == name).unwrap().to_string();
-    let output = Command::new(wine)
-        .arg(path("host.exe"))
-        .arg(path("plant.dll"))
-        .args([&interface.guid, &reference("joint[1].rate_command")])
-        .args(OUTPUTS.map(reference))
-        .env("WINEPREFIX", path("wine"))
-        .env("WINEDEBUG", "-all")
-        .output()
-        .unwrap();
-    let (out, err) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
-    assert!(output.status.success(), "{out}{err}");
-    assert!(err.contains("joint[1].rate_command must be a finite number, but is NaN"), "{err}");
-
-    let there: Vec<f64> = out.lines().map(|line| line.trim().parse().unwrap()).collect();
     let own = build(&BuildOptions::new(Structure::DEFAULT, path("own")), &|_| ()).unwrap();
-    let here = end(&Pair::open(&own.controller, &own.plant).unwrap().plant);
-    assert_eq!(there.len(), here.len());
-    assert!(here.iter().any(|value| value.abs() > 1e-3), "it moves: {here:?}");
-    for ((name, here), there) in OUTPUTS.iter().zip(&here).zip(&there) {
-        // The mathematical functions of another system round differently.
-        assert!((here - there).abs() < 1e-9, "{name}: {here} here, {there} on Windows");
+    let own = Pair::open(&own.controller, &own.plant).unwrap();
+
+    for trial in &TRIALS {
+        let interface = (trial.unit)(Structure::DEFAULT).interface;
+        let reference =
+            |name: &str| interface.variables.iter().position(|variable| variable.name == name).unwrap().to_string();
+        fs::write(path("unit.dll"), library((trial.file)(&built_for_windows), target)).unwrap();
+        let output = Command::new(&wine)
+            .arg(path("host.exe"))
+            .arg(path("unit.dll"))
+            .args([&interface.guid, &reference(trial.input)])
+            .args(trial.outputs.map(reference))
+            .env("WINEPREFIX", path("wine"))
+            .env("WINEDEBUG", "-all")
+            .output()
+            .unwrap();
+        let (out, err) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+        assert!(output.status.success(), "{out}{err}");
+        assert!(err.contains(&format!("{} must be a finite number, but is NaN", trial.input)), "{err}");
+
+        let there: Vec<f64> = out.lines().map(|line| line.trim().parse().unwrap()).collect();
+        let here = trial.end(&own);
+        assert_eq!(there.len(), here.len());
+        assert!(here.iter().any(|value| value.abs() > 1e-3), "it moves: {here:?}");
+        for ((name, here), there) in trial.outputs.iter().zip(&here).zip(&there) {
+            // The mathematical functions of another system round differently.
+            assert!((here - there).abs() < 1e-9, "{name}: {here} here, {there} on Windows");
+        }
     }
 }
 
