@@ -2,6 +2,7 @@
 
 pub mod controller;
 pub mod plant;
+mod start;
 
 use crate::parameters::{Balance, Resolution};
 use crate::unit::{self, Unit};

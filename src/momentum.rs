@@ -5,9 +5,13 @@
 //! depend on the coordinates q only. The sums run from the tip inwards, each mass is added once.
 //! What balances the arm hangs on the UAV itself.
 
+mod inertial;
+
 use std::ops::{Add, Mul, Sub};
 
 use nalgebra::SVector;
+
+pub use inertial::{inertial_load, inertial_moments, tip_acceleration};
 
 use crate::kinematics::Posture;
 use crate::memory;
@@ -203,15 +207,8 @@ pub fn outboard_momentum<const N: usize>(
 ) -> SVector<f64, N> {
     let bodies = vehicle.bodies(held);
     let motions = link_motions(vehicle, posture, v, rate);
-    let mut momentum = SVector::zeros();
-    let mut outer = Twist::ZERO;
-    for i in (0..N).rev() {
-        let own = body_momentum(&bodies[i], posture.direction[i], motions[i]);
-        let lever = posture.direction[i] * vehicle.length[i];
-        outer.angular += own.angular + cross(lever, outer.linear);
-        outer.linear += own.linear;
-        momentum[i] = outer.angular;
-    }
+    let own = std::array::from_fn(|i| body_momentum(&bodies[i], posture.direction[i], motions[i]));
+    let mut momentum = sums_outboard(vehicle, posture, &own);
     match vehicle.balancer {
         None => {}
         Some(Balancer::Counterweight(slider)) => {
@@ -223,6 +220,21 @@ pub fn outboard_momentum<const N: usize>(
         }
     }
     momentum
+}
+
+/// For each joint, the moments about it of what acts on the links outboard: `own`, a force and a moment about its own
+/// joint for each link. The same for momentum and angular momentum.
+#[inline]
+fn sums_outboard<const N: usize>(vehicle: &Vehicle<N>, posture: &Posture<N>, own: &[Twist; N]) -> SVector<f64, N> {
+    let mut sums = SVector::zeros();
+    let mut outer = Twist::ZERO;
+    for i in (0..N).rev() {
+        let lever = posture.direction[i] * vehicle.length[i];
+        outer.angular += own[i].angular + cross(lever, outer.linear);
+        outer.linear += own[i].linear;
+        sums[i] = outer.angular;
+    }
+    sums
 }
 
 /// How fast those momenta change without any load, because joints and slide move \[N m, N\].
@@ -269,109 +281,4 @@ fn body_momentum(body: &Body, direction: Vec2, motion: Twist) -> Twist {
         linear: motion.linear * body.mass + perp(direction) * (motion.angular * body.first),
         angular: cross(direction, motion.linear) * body.first + motion.angular * body.second,
     }
-}
-
-/// Force and moment about the UAV's centre of mass that keep the masses on their way while the base does
-/// not accelerate: from angular velocities and from the accelerations `rate_slope` of the coordinates.
-/// Axes of the UAV frame.
-#[must_use]
-pub fn inertial_load<const N: usize>(
-    vehicle: &Vehicle<N>,
-    posture: &Posture<N>,
-    held: bool,
-    roll_rate: f64,
-    rate: &SVector<f64, N>,
-    rate_slope: &SVector<f64, N>,
-) -> Twist {
-    let bodies = vehicle.bodies(held);
-    let mut load = Twist::ZERO;
-    let (mut omega, mut alpha) = (roll_rate, 0.0);
-    let mut acceleration = vehicle.mount * (-roll_rate * roll_rate);
-    for i in 0..N {
-        omega += rate[i] * vehicle.revolute[i];
-        alpha += rate_slope[i] * vehicle.revolute[i];
-        let (body, direction) = (&bodies[i], posture.direction[i]);
-        // Acceleration of the link per distance from its joint.
-        let spread = perp(direction) * alpha - direction * (omega * omega);
-        let force = acceleration * body.mass + spread * body.first;
-        load.linear += force;
-        load.angular +=
-            cross(posture.joint[i], force) + cross(direction, acceleration) * body.first + alpha * body.second;
-        acceleration += spread * vehicle.length[i];
-    }
-    match vehicle.balancer {
-        None => {}
-        Some(Balancer::Counterweight(slider)) => {
-            let place = posture.counterweight;
-            let coriolis = vec2(0.0, 2.0 * roll_rate * rate[N - 1]);
-            let force = (vec2(rate_slope[N - 1], 0.0) + coriolis - place * (roll_rate * roll_rate)) * slider.mass;
-            load.linear += force;
-            load.angular += cross(place, force);
-        }
-        Some(Balancer::Element(body)) => {
-            let (direction, omega) = (posture.direction[N - 1], roll_rate + rate[N - 1]);
-            load.linear += (perp(direction) * rate_slope[N - 1] - direction * (omega * omega)) * body.first;
-            load.angular += rate_slope[N - 1] * body.second;
-        }
-    }
-    load
-}
-
-/// The moments about the joints that keep what lies outboard of each on its way, likewise; none for what
-/// balances the arm.
-#[must_use]
-pub fn inertial_moments<const N: usize>(
-    vehicle: &Vehicle<N>,
-    posture: &Posture<N>,
-    held: bool,
-    roll_rate: f64,
-    rate: &SVector<f64, N>,
-    rate_slope: &SVector<f64, N>,
-) -> SVector<f64, N> {
-    let bodies = vehicle.bodies(held);
-    let mut own = [Twist::ZERO; N];
-    let (mut omega, mut alpha) = (roll_rate, 0.0);
-    let mut acceleration = vehicle.mount * (-roll_rate * roll_rate);
-    for i in 0..vehicle.links {
-        omega += rate[i];
-        alpha += rate_slope[i];
-        let (body, direction) = (&bodies[i], posture.direction[i]);
-        let spread = perp(direction) * alpha - direction * (omega * omega);
-        own[i] = Twist {
-            linear: acceleration * body.mass + spread * body.first,
-            angular: cross(direction, acceleration) * body.first + alpha * body.second,
-        };
-        acceleration += spread * vehicle.length[i];
-    }
-    let mut moments = SVector::zeros();
-    let mut outer = Twist::ZERO;
-    for i in (0..vehicle.links).rev() {
-        let lever = posture.direction[i] * vehicle.length[i];
-        outer.angular += own[i].angular + cross(lever, outer.linear);
-        outer.linear += own[i].linear;
-        moments[i] = outer.angular;
-    }
-    moments
-}
-
-/// Acceleration of the end effector while the base accelerates by `base` and the coordinates by
-/// `rate_slope`; axes of the UAV frame.
-#[must_use]
-pub fn tip_acceleration<const N: usize>(
-    vehicle: &Vehicle<N>,
-    posture: &Posture<N>,
-    base: Twist,
-    roll_rate: f64,
-    rate: &SVector<f64, N>,
-    rate_slope: &SVector<f64, N>,
-) -> Vec2 {
-    let (mut omega, mut alpha) = (roll_rate, base.angular);
-    let mut acceleration = base.linear + perp(vehicle.mount) * alpha - vehicle.mount * (omega * omega);
-    for i in 0..vehicle.links {
-        omega += rate[i];
-        alpha += rate_slope[i];
-        let direction = posture.direction[i];
-        acceleration += (perp(direction) * alpha - direction * (omega * omega)) * vehicle.length[i];
-    }
-    acceleration
 }

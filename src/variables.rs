@@ -137,9 +137,9 @@ pub struct Variable<D> {
     pub kind: Kind<D>,
     /// Number of the element that `kind` reaches, from 0.
     pub index: usize,
-    /// For outputs: the parameters that decide the value at the end of initialization, as beginnings
+    /// For outputs: the parameters that decide the value at the end of initialization, in groups of beginnings
     /// of their names without indices (`link.mass` stands for every `link[i].mass`).
-    pub initially_from: &'static [&'static str],
+    pub initially_from: &'static [&'static [&'static str]],
     /// How it changes with time, if hosts may read that (outputs) or give it (inputs).
     pub derivative: Option<Derivative<D>>,
     /// Whether it is an output that is computed when the host asks for it.
@@ -164,7 +164,7 @@ impl<D> Variable<D> {
     #[must_use]
     pub fn initially_depends_on(&self, name: &str) -> bool {
         let plain = plain(name);
-        self.initially_from.iter().any(|beginning| plain.starts_with(beginning))
+        self.initially_from.iter().copied().flatten().any(|beginning| plain.starts_with(beginning))
     }
 }
 
@@ -267,7 +267,7 @@ pub struct Group<'a, D> {
     causality: Causality,
     variability: Variability,
     index: usize,
-    initially_from: &'static [&'static str],
+    initially_from: &'static [&'static [&'static str]],
 }
 
 impl<D> Group<'_, D> {
@@ -281,7 +281,7 @@ impl<D> Group<'_, D> {
     /// Says which parameters decide the initial values of the outputs that follow; see
     /// [`Variable::initially_from`].
     #[must_use]
-    pub fn initially_from(mut self, parameters: &'static [&'static str]) -> Self {
+    pub fn initially_from(mut self, parameters: &'static [&'static [&'static str]]) -> Self {
         self.initially_from = parameters;
         self
     }

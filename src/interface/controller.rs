@@ -2,6 +2,7 @@
 
 mod derivatives;
 
+use super::start::{BALANCE, GEOMETRY, PLAN};
 use super::{Balancing, declare_time};
 use crate::bytes::{Memory, Tape};
 use crate::controller::{self, Inputs, Outputs, Rates};
@@ -148,29 +149,10 @@ fn declare_inputs(table: &mut Table<Data>) {
         );
 }
 
-/// Parameters that decide where things are at the start.
-const GEOMETRY: &[&str] = &["mount", "link.length", "joint.start"];
-/// Parameters that decide the first plan.
-const PLAN: &[&str] = &[
-    "gravity",
-    "uav",
-    "mount",
-    "link",
-    "joint",
-    "counterweight",
-    "balance_element",
-    "autopilot",
-    "payload",
-    "support",
-    "sample_time",
-    "ik",
-    "reference",
-];
-
 fn declare_outputs(table: &mut Table<Data>, structure: Structure) {
     for i in 0..structure.links {
         let n = i + 1;
-        table.output().at(i).initially_from(PLAN).real(
+        table.output().at(i).initially_from(&[PLAN]).real(
             format!("joint[{n}].rate_command"),
             &unit::RADIAN_PER_SECOND,
             Bounds::ANY,
@@ -179,7 +161,7 @@ fn declare_outputs(table: &mut Table<Data>, structure: Structure) {
         );
     }
     if let Some(Balancing { name, noun, moved_by, units: [_, rate, ..], .. }) = Balancing::new(structure.balance) {
-        table.output().at(structure.links).initially_from(PLAN).real(
+        table.output().at(structure.links).initially_from(&[PLAN]).real(
             format!("{name}.rate_command"),
             rate,
             Bounds::ANY,
@@ -189,7 +171,7 @@ fn declare_outputs(table: &mut Table<Data>, structure: Structure) {
     }
     for i in 0..structure.links {
         let n = i + 1;
-        table.output().at(i).initially_from(PLAN).real(
+        table.output().at(i).initially_from(&[PLAN]).real(
             format!("joint[{n}].acceleration_command"),
             &unit::RADIAN_PER_SECOND2,
             Bounds::ANY,
@@ -198,7 +180,7 @@ fn declare_outputs(table: &mut Table<Data>, structure: Structure) {
         );
     }
     if let Some(Balancing { name, noun, units: [_, _, acceleration, ..], .. }) = Balancing::new(structure.balance) {
-        table.output().at(structure.links).initially_from(PLAN).real(
+        table.output().at(structure.links).initially_from(&[PLAN]).real(
             format!("{name}.acceleration_command"),
             acceleration,
             Bounds::ANY,
@@ -206,14 +188,14 @@ fn declare_outputs(table: &mut Table<Data>, structure: Structure) {
             |d, i| &mut d.outputs.acceleration_command[i],
         );
     }
-    table.group(Causality::Output, Variability::Discrete).initially_from(&["payload.grasp_time"]).boolean(
+    table.group(Causality::Output, Variability::Discrete).initially_from(&[&["payload.grasp_time"]]).boolean(
         "grasp",
         "Whether the payload is to be held",
         |d, _| &mut d.outputs.grasp,
     );
     table
         .output()
-        .initially_from(GEOMETRY)
+        .initially_from(&[GEOMETRY])
         .real(
             "reference.x",
             &unit::METRE,
@@ -274,7 +256,7 @@ fn declare_outputs(table: &mut Table<Data>, structure: Structure) {
         );
     table
         .output()
-        .initially_from(GEOMETRY)
+        .initially_from(&[GEOMETRY])
         .real(
             "predicted.end_effector.x",
             &unit::METRE,
@@ -291,7 +273,7 @@ fn declare_outputs(table: &mut Table<Data>, structure: Structure) {
         );
     for i in 0..structure.links {
         let n = i + 1;
-        table.output().at(i).initially_from(&["joint.start"]).real(
+        table.output().at(i).initially_from(&[&["joint.start"]]).real(
             format!("predicted.joint[{n}].position"),
             &unit::RADIAN,
             Bounds::ANY,
@@ -300,7 +282,7 @@ fn declare_outputs(table: &mut Table<Data>, structure: Structure) {
         );
     }
     if let Some(Balancing { name, place, units: [position, ..], .. }) = Balancing::new(structure.balance) {
-        table.output().at(structure.links).initially_from(&["counterweight.start", "balance_element.start"]).real(
+        table.output().at(structure.links).initially_from(&[BALANCE]).real(
             format!("predicted.{name}.position"),
             position,
             Bounds::ANY,
@@ -308,14 +290,14 @@ fn declare_outputs(table: &mut Table<Data>, structure: Structure) {
             |d, i| &mut d.outputs.predicted_position[i],
         );
     }
-    table.group(Causality::Output, Variability::Discrete).initially_from(PLAN).choice(
+    table.group(Causality::Output, Variability::Discrete).initially_from(&[PLAN]).choice(
         "ik.status",
         "How the present rates came about",
         |d, _| &mut d.outputs.status,
     );
     table
         .output()
-        .initially_from(PLAN)
+        .initially_from(&[PLAN])
         .real(
             "ik.min_singular_value",
             &unit::METRE,

@@ -2,63 +2,20 @@
 
 use super::Data;
 use crate::interface::Balancing;
+use crate::interface::start::{BALANCE, BALANCE_WEIGHT, GEOMETRY, LINKS};
 use crate::parameters::Structure;
 use crate::unit;
 use crate::variables::{Bounds, Causality, Table, Variability};
 
-/// Parameters that decide where things are at the start.
-const GEOMETRY: &[&str] = &["mount", "link.length", "joint.start"];
-/// Parameters that decide where masses are at the start, without the payload.
-const MASSES: &[&str] = &[
-    "uav.mass",
-    "mount",
-    "link.mass",
-    "link.length",
-    "link.com",
-    "joint.start",
-    "counterweight.mass",
-    "counterweight.start",
-    "counterweight.height",
-    "balance_element.mass",
-    "balance_element.com",
-    "balance_element.start",
-];
-/// Parameters that decide what holds the vehicle at rest.
-const HOVER: &[&str] = &[
-    "gravity",
-    "autopilot.mode",
-    "uav.mass",
-    "mount",
-    "link.mass",
-    "link.length",
-    "link.com",
-    "joint.start",
-    "counterweight.mass",
-    "counterweight.start",
-    "balance_element.mass",
-    "balance_element.com",
-    "balance_element.start",
-];
-/// Parameters that decide the moment of what the UAV carries at rest.
-const CARRIED: &[&str] = &[
-    "gravity",
-    "mount",
-    "link.mass",
-    "link.length",
-    "link.com",
-    "joint.start",
-    "counterweight.mass",
-    "counterweight.start",
-    "balance_element.mass",
-    "balance_element.com",
-    "balance_element.start",
-];
-/// Parameters that decide the torques that hold the joints at rest.
-const JOINTS: &[&str] = &["gravity", "link.mass", "link.length", "link.com", "joint.start"];
-/// Parameters that decide where what balances the arm is at the start.
-const BALANCE_START: &[&str] = &["counterweight.start", "balance_element.start"];
-/// Parameters that decide the torque that holds a balance element at rest; a counterweight needs no force.
-const BALANCE_EFFORT: &[&str] = &["gravity", "balance_element.mass", "balance_element.com", "balance_element.start"];
+/// Where the masses are at the start, without the payload.
+const MASSES: &[&[&str]] = &[&["uav.mass", "mount", "counterweight.height"], LINKS, BALANCE, BALANCE_WEIGHT];
+/// What holds the vehicle at rest.
+const HOVER: &[&[&str]] = &[&["gravity", "autopilot.mode", "uav.mass", "mount"], LINKS, BALANCE, BALANCE_WEIGHT];
+/// The moment of what the UAV carries at rest.
+const CARRIED: &[&[&str]] = &[&["gravity", "mount"], LINKS, BALANCE, BALANCE_WEIGHT];
+/// The torque that holds a balance element at rest; a counterweight needs no force.
+const BALANCE_EFFORT: &[&[&str]] =
+    &[&["gravity", "balance_element.mass", "balance_element.com", "balance_element.start"]];
 
 /// What a step itself does not need: a coupling that connects none of it is spared a sixth of the time.
 pub(super) const ON_DEMAND: &[&str] = &[
@@ -136,7 +93,7 @@ pub(super) fn declare(table: &mut Table<Data>, structure: Structure) {
         );
     for i in 0..structure.links {
         let n = i + 1;
-        table.output().at(i).initially_from(&["joint.start"]).real(
+        table.output().at(i).initially_from(&[&["joint.start"]]).real(
             format!("joint[{n}].position"),
             &unit::RADIAN,
             Bounds::ANY,
@@ -150,7 +107,7 @@ pub(super) fn declare(table: &mut Table<Data>, structure: Structure) {
             format!("Rate of joint {n}"),
             |d, i| &mut d.outputs.rate[i],
         );
-        table.output().at(i).initially_from(JOINTS).real(
+        table.output().at(i).initially_from(&[&["gravity"], LINKS]).real(
             format!("joint[{n}].torque"),
             &unit::NEWTON_METRE,
             Bounds::ANY,
@@ -163,7 +120,7 @@ pub(super) fn declare(table: &mut Table<Data>, structure: Structure) {
     if let Some(Balancing { name, noun, place, exerted, effort, units: [position, rate, _, effort_unit], .. }) =
         Balancing::new(structure.balance)
     {
-        table.output().at(structure.links).initially_from(BALANCE_START).real(
+        table.output().at(structure.links).initially_from(&[BALANCE]).real(
             format!("{name}.position"),
             position,
             Bounds::ANY,
@@ -187,7 +144,7 @@ pub(super) fn declare(table: &mut Table<Data>, structure: Structure) {
     }
     table
         .output()
-        .initially_from(GEOMETRY)
+        .initially_from(&[GEOMETRY])
         .real("end_effector.x", &unit::METRE, Bounds::ANY, "Position of the end effector, to the right", |d, _| {
             &mut d.outputs.end_effector.x
         })
