@@ -142,7 +142,7 @@ pub trait Simulation: Memory + Send {
     /// If one is not finite.
     fn initial_outputs(&self, outputs: &mut Outputs) -> Result<()> {
         self.write_state(outputs);
-        self.observe(outputs)
+        self.observe(0.0, outputs)
     }
 
     /// Writes the part of the outputs that is the state.
@@ -161,11 +161,11 @@ pub trait Simulation: Memory + Send {
         outputs: &mut Outputs,
     ) -> Result<()>;
 
-    /// Writes all other outputs at the end of the finished step, or at the start.
+    /// Writes all other outputs at the end of the finished step, at `time`, or at the start.
     ///
     /// # Errors
     /// If one is not finite.
-    fn observe(&self, outputs: &mut Outputs) -> Result<()>;
+    fn observe(&self, time: f64, outputs: &mut Outputs) -> Result<()>;
 
     /// How fast the outputs of the finished step change at its end.
     fn rates(&self) -> Rates;

@@ -94,7 +94,7 @@ impl PlantRun {
     /// A step, and all outputs after it.
     pub fn observed_step(&mut self) {
         self.step();
-        self.simulation.observe(&mut self.outputs).unwrap();
+        self.simulation.observe(f64::from(self.steps) * STEP, &mut self.outputs).unwrap();
     }
 
     pub fn simulation(&self) -> &dyn Simulation {

@@ -98,7 +98,7 @@ impl Model for PlantUnit {
     fn observe(&self, data: &mut Data) -> Result<(), Error> {
         // A copy, so that a failure leaves nothing that is not finite.
         let mut outputs = data.outputs.clone();
-        self.0.observe(&mut outputs)?;
+        self.0.observe(data.time, &mut outputs)?;
         data.outputs = outputs;
         Ok(())
     }

@@ -9,7 +9,6 @@ use crate::dynamics::{Driven, Dynamics, Instant, Load, Loads, Motion, Situation,
 use crate::error::Result;
 use crate::memory;
 use crate::parameters::{BaseModel, Parameters, Structure};
-use crate::planar::Vec2;
 
 /// An aerial manipulator with `N` coordinates, simulated.
 #[derive(Debug, Clone)]
@@ -33,15 +32,13 @@ struct Finished<const N: usize> {
     change: Option<Load>,
     /// Length \[s\].
     size: f64,
-    /// When it ended, counted from the start \[s\].
-    end: f64,
 }
 
-memory!(Finished<N> { slope, begin, change, size, end });
+memory!(Finished<N> { slope, begin, change, size });
 
 impl<const N: usize> Default for Finished<N> {
     fn default() -> Self {
-        Self { slope: SVector::zeros(), begin: Load::NONE, change: None, size: 0.0, end: 0.0 }
+        Self { slope: SVector::zeros(), begin: Load::NONE, change: None, size: 0.0 }
     }
 }
 
@@ -64,13 +61,10 @@ impl<const N: usize> Plant<N> {
         Ok(Self { dynamics, situation, means, driven, finished: None })
     }
 
-    /// What can be said of the end of a step, and how fast the autopilot changes thrust and torque there.
-    fn at_end(&self, finished: &Finished<N>) -> (Instant, Vec2) {
-        let (loads, mut room) = (finished.loads(), Load::NONE);
-        let load = loads.present(finished.size, &mut room);
-        let now = self.dynamics.at_end(&self.situation, &finished.slope, load);
-        let control = self.dynamics.control_rate(&self.situation, &now.acceleration, &loads, finished.size);
-        (now, control)
+    /// What can be said of the end of a step.
+    fn at_end(&self, finished: &Finished<N>) -> Instant {
+        let mut room = Load::NONE;
+        self.dynamics.at_end(&self.situation, &finished.slope, finished.loads().present(finished.size, &mut room))
     }
 }
 
@@ -130,12 +124,12 @@ impl<const N: usize> Simulation for Plant<N> {
         self.means.add(impulse, size);
         self.means.close(&self.dynamics, &self.situation, loads.present(0.5 * size, &mut room));
         let (slope, begin, change) = (motion.slope, loads.begin, change.copied());
-        self.finished = Some(Finished { slope, begin, change, size, end: t + size });
+        self.finished = Some(Finished { slope, begin, change, size });
         self.write_state(outputs);
         Ok(())
     }
 
-    fn observe(&self, outputs: &mut Outputs) -> Result<()> {
+    fn observe(&self, time: f64, outputs: &mut Outputs) -> Result<()> {
         let Situation { turn, node, .. } = &self.situation;
         let tip = node.posture.end_effector;
         let tip_velocity = node.velocity_at(&self.dynamics.vehicle, tip, self.situation.base());
@@ -144,19 +138,20 @@ impl<const N: usize> Simulation for Plant<N> {
         outputs.center_of_mass = self.situation.place(node.matrix.first / node.matrix.mass);
         self.means.write(outputs);
         if let Some(finished) = &self.finished {
-            let (now, _) = self.at_end(finished);
+            let now = self.at_end(finished);
             outputs.acceleration = now.acceleration;
             outputs.support_force = now.support;
             if !self.dynamics.on_carriage() {
                 (outputs.thrust, outputs.torque) = (now.control.x, now.control.y);
             }
         }
-        outputs.check(self.finished.map_or(0.0, |finished| finished.end))
+        outputs.check(time)
     }
 
     fn rates(&self) -> Rates {
         let Some(finished) = &self.finished else { return Rates::default() };
-        let (Instant { acceleration, .. }, control) = self.at_end(finished);
+        let Instant { acceleration, .. } = self.at_end(finished);
+        let control = self.dynamics.control_rate(&self.situation, &acceleration, &finished.loads(), finished.size);
         let now = self.dynamics.rates_at_end(&self.situation, &finished.slope, &acceleration);
         let mut rates = Rates {
             end_effector_velocity: now.tip_velocity,

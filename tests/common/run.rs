@@ -25,7 +25,7 @@ impl Run {
 
     pub fn try_step(&mut self, size: f64) -> uam::Result<()> {
         self.simulation.step(&self.model.parameters, &self.inputs, self.time, size, &mut self.outputs)?;
-        self.simulation.observe(&mut self.outputs)?;
+        self.simulation.observe(self.time + size, &mut self.outputs)?;
         self.time += size;
         Ok(())
     }
