@@ -60,6 +60,8 @@ pub struct Data {
     pub position: f64,
     pub speed: f64,
     pub held: bool,
+    /// Of the position; on demand.
+    pub square: f64,
     pub extra: f64,
     /// Derivative of the rate in the next step.
     pub push: f64,
@@ -78,7 +80,8 @@ pub mod vr {
     pub const POSITION: u32 = 8;
     pub const SPEED: u32 = 9;
     pub const HELD: u32 = 10;
-    pub const COUNT: u32 = 11;
+    pub const SQUARE: u32 = 11;
+    pub const COUNT: u32 = 12;
 }
 
 #[derive(Debug, Clone)]
@@ -131,6 +134,7 @@ impl Model for Toy {
         table
             .group(Causality::Output, Variability::Discrete)
             .boolean("held", "Whether it stands still", |d, _| &mut d.held);
+        table.output().real("square", &unit::ONE, Bounds::ANY, "Square of the position", |d, _| &mut d.square);
         if size == Size::Large {
             table.tunable().real("extra", &unit::ONE, Bounds::ANY, "Only for large toys", |d, _| &mut d.extra);
         }
@@ -139,6 +143,7 @@ impl Model for Toy {
             ("position", Derivative::At(|d, _| &mut d.speed)),
             ("speed", Derivative::Constant(0.0)),
         ]);
+        table.postpone(&["square"]);
         table
     }
 
@@ -155,6 +160,7 @@ impl Model for Toy {
             position: 0.0,
             speed: 0.0,
             held: false,
+            square: 0.0,
             extra: 0.0,
             push: 0.0,
         }
@@ -162,6 +168,7 @@ impl Model for Toy {
 
     fn initialize(_: Size, data: &mut Data, _: f64) -> Result<Self, String> {
         data.position = data.gain;
+        data.square = data.gain * data.gain;
         data.held = data.hold;
         if data.gain > data.limit {
             return Err(format!("gain = {} is above limit = {}", data.gain, data.limit));
@@ -183,6 +190,15 @@ impl Model for Toy {
         data.position = self.position;
         data.held = data.hold;
         data.push = 0.0;
+        Ok(())
+    }
+
+    fn observe(&self, data: &mut Data) -> Result<(), String> {
+        let square = self.position * self.position;
+        if !square.is_finite() {
+            return Err(format!("the square of {} is too large", self.position));
+        }
+        data.square = square;
         Ok(())
     }
 

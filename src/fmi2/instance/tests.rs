@@ -54,6 +54,37 @@ fn setting_an_input_changes_no_output_before_the_next_step() {
     assert_eq!(real(&mut toy, vr::SPEED), before);
 }
 
+/// Of each communication point, whenever the host asks, and also in a saved state.
+#[test]
+fn outputs_on_demand_are_those_of_the_finished_step() {
+    let mut toy = running();
+    assert_eq!(real(&mut toy, vr::SQUARE), 1.0);
+    set(&mut toy, vr::RATE, 2.0).unwrap();
+    toy.do_step(0.0, 0.5).unwrap();
+    set(&mut toy, vr::RATE, 4.0).unwrap();
+    let saved = toy.save().unwrap();
+    assert_eq!(real(&mut toy, vr::SQUARE), 4.0);
+    toy.do_step(0.5, 0.25).unwrap();
+    toy.do_step(0.75, 0.25).unwrap();
+    assert_eq!(real(&mut toy, vr::SQUARE), 16.0);
+    toy.restore(&saved).unwrap();
+    assert_eq!(real(&mut toy, vr::SQUARE), 4.0);
+}
+
+/// The rest can still be read; nothing that is not finite is handed out.
+#[test]
+fn outputs_without_a_value_are_an_error_once_and_the_simulation_is_over() {
+    let mut toy = running();
+    set(&mut toy, vr::RATE, 1e200).unwrap();
+    toy.do_step(0.0, 1.0).unwrap();
+    assert_eq!(real(&mut toy, vr::POSITION), 1e200);
+    let found = message(toy.get(&[vr::SQUARE], &mut [0.0]));
+    assert_eq!(found, format!("the outputs at t = 1 s: the square of {} is too large", 1e200));
+    assert_eq!(toy.state(), State::Failed);
+    assert_eq!(real(&mut toy, vr::SQUARE), 1.0);
+    assert!(toy.do_step(1.0, 1.0).is_err());
+}
+
 #[test]
 fn outputs_follow_parameters_and_inputs_before_the_simulation() {
     let mut toy = new();
@@ -112,7 +143,7 @@ fn refusals_name_the_variable_what_is_expected_and_what_was_found() {
         (vr::FAULT, 0.0, "fault must be 1 (none), 2 (error) or 3 (panic), but is 0"),
         (vr::POSITION, 1.0, "position is an output and cannot be set"),
         (vr::TIME, 1.0, "time is the independent variable and cannot be set"),
-        (vr::COUNT, 1.0, "no variable has the value reference 11; there are 0 to 10"),
+        (vr::COUNT, 1.0, "no variable has the value reference 12; there are 0 to 11"),
     ];
     for (reference, value, expected) in reals {
         assert_eq!(message(set(&mut toy, reference, value)), expected);

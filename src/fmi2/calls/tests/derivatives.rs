@@ -41,7 +41,7 @@ fn derivatives_that_are_not_there_are_refused_by_name() {
         (vr::HOLD, 1, "hold has no derivative of order 1 as an input"),
         (vr::LEAK, 1, "leak has no derivative"),
         (vr::POSITION, 1, "position has no derivative of order 1 as an input"),
-        (vr::COUNT, 1, "no variable has the value reference 11"),
+        (vr::COUNT, 1, "no variable has the value reference 12"),
     ] {
         assert_eq!(give(&toy, reference, order, 1.0), ERROR);
         assert!(host.last().text.contains(part), "{}", host.last().text);
