@@ -33,10 +33,9 @@ impl<M: Model> Instance<M> {
     /// The present state.
     ///
     /// # Errors
-    /// If the state machine does not allow it, or the outputs have no values.
-    pub fn save(&mut self) -> Result<Saved<M>, Error> {
+    /// If the state machine does not allow it.
+    pub fn save(&self) -> Result<Saved<M>, Error> {
         self.permit(Call::GetFMUstate)?;
-        self.observe()?;
         Ok(Saved { structure: self.unit.structure, then: self.now.clone() })
     }
 
@@ -131,12 +130,12 @@ impl<M: Model> Situation<M> {
     /// Passes all but the model by a tape.
     fn pass(&mut self, table: &Table<M::Data>, has_model: &mut bool, tape: &mut Tape<'_>) {
         // Without "..": whoever adds a field decides here how it is written.
-        // Outputs are observed before they are saved.
-        let Self { state, data, model: _, start_time, stop_time, time, observed: _ } = self;
+        let Self { state, data, model: _, start_time, stop_time, time, observed } = self;
         tape.one_of(state, &State::ALL);
         start_time.pass(tape);
         stop_time.pass(tape);
         time.pass(tape);
+        observed.pass(tape);
         for variable in table.variables() {
             match variable.kind {
                 Kind::Real { at, .. } => at(data, variable.index).pass(tape),

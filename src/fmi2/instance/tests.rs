@@ -63,12 +63,15 @@ fn outputs_on_demand_are_those_of_the_finished_step() {
     toy.do_step(0.0, 0.5).unwrap();
     set(&mut toy, vr::RATE, 4.0).unwrap();
     let saved = toy.save().unwrap();
+    let bytes = toy.write_saved(&saved).unwrap();
     assert_eq!(real(&mut toy, vr::SQUARE), 4.0);
     toy.do_step(0.5, 0.25).unwrap();
     toy.do_step(0.75, 0.25).unwrap();
     assert_eq!(real(&mut toy, vr::SQUARE), 16.0);
-    toy.restore(&saved).unwrap();
-    assert_eq!(real(&mut toy, vr::SQUARE), 4.0);
+    for saved in [saved, toy.read_saved(&bytes).unwrap()] {
+        toy.restore(&saved).unwrap();
+        assert_eq!(real(&mut toy, vr::SQUARE), 4.0);
+    }
 }
 
 /// The rest can still be read; nothing that is not finite is handed out.
