@@ -1,5 +1,6 @@
 //! Hover control of altitude and roll (thesis 1.2.3).
 
+use crate::memory;
 use crate::options;
 
 options! {
@@ -24,6 +25,8 @@ pub struct Gains {
     /// Derivative gain.
     pub kd: f64,
 }
+
+memory!(Gains { kp, ki, kd });
 
 /// Settings of the hover control.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -30,12 +30,14 @@ pub use loads::{Load, Loads};
 pub use rates::Rates;
 
 use crate::autopilot::{Autopilot, AutopilotMode, Gains};
+use crate::bytes::{Memory, Tape};
 use crate::error::{Error, Result};
 use crate::kinematics::Posture;
 use crate::memory;
 use crate::momentum::Twist;
 use crate::parameters::{BaseModel, MomentModel, Parameters, Structure, Support};
 use crate::planar::{Turn, Vec2, vec2};
+use crate::variables::Bounds;
 use crate::vehicle::{Balancer, Vehicle};
 
 /// Shortest sample time of an autopilot that is not continuous \[s\].
@@ -297,11 +299,33 @@ impl<const N: usize> Dynamics<N> {
         Ok(dynamics)
     }
 
-    /// Takes over the gains of `autopilot`.
-    pub fn tune(&mut self, autopilot: &Autopilot) {
-        if (self.autopilot.altitude, self.autopilot.roll) != (autopilot.altitude, autopilot.roll) {
+    /// Takes over the gains of `autopilot`; whether they are others than before.
+    pub fn tune(&mut self, autopilot: &Autopilot) -> bool {
+        let others = (self.autopilot.altitude, self.autopilot.roll) != (autopilot.altitude, autopilot.roll);
+        if others {
             (self.autopilot.altitude, self.autopilot.roll) = (autopilot.altitude, autopilot.roll);
             self.heed_autopilot();
+        }
+        others
+    }
+
+    /// Passes the gains in force by a tape: those of the finished step, where the parameters may be ahead.
+    pub fn pass_gains(&mut self, tape: &mut Tape<'_>) {
+        self.autopilot.altitude.pass(tape);
+        self.autopilot.roll.pass(tape);
+        self.heed_autopilot();
+    }
+
+    /// Whether the gains can be those of a run.
+    ///
+    /// # Errors
+    /// Names one that is negative or not finite.
+    pub fn check_gains(&self) -> Result<()> {
+        let Autopilot { altitude, roll, .. } = &self.autopilot;
+        let gains = [altitude.kp, altitude.ki, altitude.kd, roll.kp, roll.ki, roll.kd];
+        match gains.into_iter().find(|gain| !Bounds::NON_NEGATIVE.admit(*gain)) {
+            Some(value) => Err(Error::Impossible { quantity: "gain of the autopilot", value }),
+            None => Ok(()),
         }
     }
 

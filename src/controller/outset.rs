@@ -47,7 +47,8 @@ impl<const N: usize> Outset<N> {
 impl<const N: usize> Memory for Outset<N> {
     fn pass(&mut self, tape: &mut Tape<'_>) {
         // Without "..": whoever adds a field decides here whether it follows from the parameters.
-        let Self { dynamics: _, resolver: _, hold: _, now, motion, before, places } = self;
+        let Self { dynamics, resolver: _, hold: _, now, motion, before, places } = self;
+        dynamics.pass_gains(tape);
         now.pass(tape);
         motion.pass(tape);
         before.pass(tape);

@@ -128,7 +128,7 @@ impl<const N: usize> Controller<N> {
     fn end_effector_velocity(&self) -> Vec2 {
         let Outset { dynamics, now, .. } = &self.outset;
         let Situation { turn, node, .. } = &now.situation;
-        turn.apply(node.velocity_at(&dynamics.vehicle, node.posture.end_effector, now.situation.base()))
+        dynamics.velocity_at(node, *turn, node.posture.end_effector, now.situation.base())
     }
 
     /// Plans the interval from time `t` on, where the reference is at `wanted`.
@@ -206,11 +206,11 @@ impl<const N: usize> Controller<N> {
         target
     }
 
-    /// Advances the prediction by `size` \[s\] at the rates sent.
-    fn predict(&mut self, t: f64, size: f64) -> Result<()> {
+    /// Advances the prediction by `size` \[s\] at the rates sent; `tuned`: by other laws than were planned with.
+    fn predict(&mut self, t: f64, size: f64, tuned: bool) -> Result<()> {
         let Self { outset, planned_end, .. } = self;
         // The plan has already been there, if the host makes the step that it was made for.
-        if size == self.horizon && (t - self.planned_at).abs() < SAME_TIME {
+        if !tuned && size == self.horizon && (t - self.planned_at).abs() < SAME_TIME {
             outset.now = *planned_end;
         } else {
             let mut end = outset.now;
@@ -276,9 +276,9 @@ impl<const N: usize> Planner for Controller<N> {
         size: f64,
         outputs: &mut Outputs,
     ) -> Result<()> {
-        self.outset.dynamics.tune(&parameters.autopilot);
+        let tuned = self.outset.dynamics.tune(&parameters.autopilot);
         self.outset.resolver.tune(parameters);
-        self.predict(t, size)?;
+        self.predict(t, size, tuned)?;
         let now = t + size;
         self.grasp_in_time(now);
         let wanted = self.target(now, 0.0, inputs);
@@ -303,6 +303,7 @@ impl<const N: usize> Planner for Controller<N> {
     }
 
     fn check_memory(&self) -> Result<()> {
+        self.outset.dynamics.check_gains()?;
         self.outset.now.check_memory()?;
         self.planned_end.check_memory()?;
         let times = [("time of the last plan", self.planned_at), ("length of the planned interval", self.horizon)];

@@ -19,9 +19,9 @@ use nalgebra::{SMatrix, SVector};
 use super::{Dynamics, Load, Node, Situation};
 use crate::bytes::{Memory, Tape};
 use crate::error::{Error, Result};
-use crate::momentum::{Twist, inertial_load, inertial_moments, outboard_drift, outboard_momentum};
+use crate::momentum::{Twist, inertial_moments, outboard_drift, outboard_momentum};
 use crate::parameters::{Actuation, Parameters};
-use crate::planar::{Vec2, cross, vec2};
+use crate::planar::{Vec2, cross};
 
 /// A joint resists its torque if this share of the inertia outboard of it does not move with base and other joints.
 const RESISTING: f64 = 1e-9;
@@ -173,16 +173,11 @@ impl<const N: usize> Dynamics<N> {
         size: f64,
         load: &Load,
     ) -> SVector<f64, N> {
-        let Situation { state, turn, node } = situation;
+        let Situation { state, node, .. } = situation;
         let (vehicle, posture, roll_rate) = (&self.vehicle, &node.posture, state.velocity.z);
         let (flow, scene) = (situation.flow(self.base), Self::scene(&situation.state));
         let rate = self.law_at(&flow, node, situation.base(), load, &scene);
-        let force = Twist {
-            linear: turn.undo(vec2(rate[3], rate[4])),
-            angular: rate[5] + cross(state.velocity.xy(), state.momentum.xy()),
-        };
-        let kept = inertial_load(vehicle, posture, state.held, roll_rate, &node.rate, imposed);
-        let base = self.base_motion(node, force - kept, Twist::ZERO);
+        let base = self.base_acceleration(situation, self.loads_at_end(situation, &rate), imposed);
 
         let drift = outboard_drift(vehicle, posture, state.held, situation.base(), &node.rate);
         let kept = inertial_moments(vehicle, posture, state.held, roll_rate, &node.rate, imposed);

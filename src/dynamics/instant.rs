@@ -2,10 +2,10 @@
 
 use nalgebra::{SVector, Vector3};
 
-use super::law::Scene;
+use super::law::{Flow, Scene};
 use super::{Dynamics, Load, Loads, Motion, Situation, State, in_inertial_frame};
 use crate::momentum::{Twist, inertial_load};
-use crate::planar::{Vec2, cross, vec2};
+use crate::planar::{Vec2, vec2};
 
 /// See [`Dynamics::at_end`].
 #[derive(Debug, Clone, Copy)]
@@ -34,21 +34,30 @@ impl<const N: usize> Dynamics<N> {
     /// accelerate by `slope`.
     #[must_use]
     pub fn at_end(&self, situation: &Situation<N>, slope: &SVector<f64, N>, load: &Load) -> Instant {
-        let Situation { state, turn, node } = situation;
+        let state = &situation.state;
         let flow = situation.flow(self.base);
         let scene = Self::scene(state);
-        let rate = self.law_at(&flow, node, situation.base(), load, &scene);
+        let rate = self.law_at(&flow, &situation.node, situation.base(), load, &scene);
         let thrust = self.control(&flow, &state.velocity, load, &scene).x;
-        let load = Twist {
-            linear: turn.undo(vec2(rate[3], rate[4])),
-            angular: rate[5] + cross(state.velocity.xy(), state.momentum.xy()),
-        };
-        let kept = inertial_load(&self.vehicle, &node.posture, state.held, state.velocity.z, &node.rate, slope);
-        let acceleration = if self.on_carriage() {
-            Vector3::new((load - kept).linear.x / node.matrix.mass, 0.0, 0.0)
-        } else {
-            in_inertial_frame(*turn, node.matrix.base_response(load - kept))
-        };
+        let base = self.base_acceleration(situation, self.loads_at_end(situation, &rate), slope);
+        let acceleration = in_inertial_frame(situation.turn, base);
         Instant { acceleration, control: vec2(thrust, rate[10]), support: rate[11] }
+    }
+
+    /// Force on the whole system and moment about the UAV's centre of mass in `situation`, where `rate` is the rate of
+    /// the flow; axes of the arm's frame.
+    pub(super) fn loads_at_end(&self, Situation { state, turn, node }: &Situation<N>, rate: &Flow) -> Twist {
+        let transport = self.base.transport(state.velocity.xy(), state.momentum.xy(), node.arm);
+        Twist { linear: turn.undo(vec2(rate[3], rate[4])), angular: rate[5] + transport }
+    }
+
+    /// Acceleration of the base under these `loads`, while the coordinates accelerate by `slope`; axes of the arm's frame.
+    ///
+    /// As velocity follows from momentum by the model of the base, so does acceleration from loads.
+    pub(super) fn base_acceleration(&self, situation: &Situation<N>, loads: Twist, slope: &SVector<f64, N>) -> Twist {
+        let node = &situation.node;
+        let roll_rate = self.base.carried(situation.base()).angular;
+        let kept = inertial_load(&self.vehicle, &node.posture, situation.state.held, roll_rate, &node.rate, slope);
+        self.base_motion(node, loads, kept)
     }
 }

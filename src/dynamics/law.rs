@@ -243,7 +243,14 @@ impl<const N: usize> Dynamics<N> {
     /// How fast the payload leaves the support while the UAV moves with `velocity`, inertial frame \[m/s\].
     pub(super) fn gap_rate(&self, turn: Turn, node: &Node<N>, velocity: &Vector3<f64>) -> f64 {
         let v = Twist { linear: turn.undo(velocity.xy()), angular: velocity.z };
-        turn.apply(node.velocity_at(&self.vehicle, node.posture.payload, self.base.carried(v))).y
+        self.velocity_at(node, turn, node.posture.payload, v).y
+    }
+
+    /// Velocity of a point of the last link at `place` (UAV frame) \[m/s\], inertial frame, while the base moves with `v`,
+    /// axes of the arm's frame, which is turned by `turn`.
+    #[must_use]
+    pub fn velocity_at(&self, node: &Node<N>, turn: Turn, place: Vec2, v: Twist) -> Vec2 {
+        turn.apply(node.velocity_at(&self.vehicle, place, self.base.carried(v)))
     }
 }
 

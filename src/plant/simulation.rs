@@ -132,9 +132,8 @@ impl<const N: usize> Simulation for Plant<N> {
     fn observe(&self, time: f64, outputs: &mut Outputs) -> Result<()> {
         let Situation { turn, node, .. } = &self.situation;
         let tip = node.posture.end_effector;
-        let tip_velocity = node.velocity_at(&self.dynamics.vehicle, tip, self.situation.base());
         outputs.end_effector = self.situation.place(tip);
-        outputs.end_effector_velocity = turn.apply(tip_velocity);
+        outputs.end_effector_velocity = self.dynamics.velocity_at(node, *turn, tip, self.situation.base());
         outputs.center_of_mass = self.situation.place(node.matrix.first / node.matrix.mass);
         self.means.write(outputs);
         if let Some(finished) = &self.finished {
@@ -167,6 +166,7 @@ impl<const N: usize> Simulation for Plant<N> {
     }
 
     fn check_memory(&self) -> Result<()> {
+        self.dynamics.check_gains()?;
         self.situation.state.check_memory()
     }
 
@@ -178,7 +178,8 @@ impl<const N: usize> Simulation for Plant<N> {
 impl<const N: usize> Memory for Plant<N> {
     fn pass(&mut self, tape: &mut Tape<'_>) {
         // Without "..": whoever adds a field decides here whether it follows from the parameters.
-        let Self { dynamics: _, situation, means, driven, finished } = self;
+        let Self { dynamics, situation, means, driven, finished } = self;
+        dynamics.pass_gains(tape);
         situation.pass(tape);
         means.pass(tape);
         if let Some(driven) = driven {

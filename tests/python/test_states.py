@@ -213,6 +213,33 @@ def test_a_state_goes_on_bit_by_bit(case: Case, tmp_path: Path) -> None:
             assert not run.instance.said, run.instance.said
 
 
+@pytest.mark.parametrize("name", ["controller", "plant"])
+def test_gains_that_are_to_change_are_part_of_a_state(name: str) -> None:
+    """Tunable gains act from the next step on: what the finished step left, and how it changes, is by the old ones."""
+    gains = {"autopilot.altitude.kp": 3.0, "autopilot.altitude.kd": 40.0, "autopilot.roll.kd": 1.0}
+    with Unit(getattr(build(DEFAULT), name)) as unit:
+        instance, other, untouched = (unit.instantiate() for _ in range(3))
+        outputs = unit.names("output")
+        rates = {f"joint[{n}].rate_command": 0.3 * n for n in (1, 2, 3)} if name == "plant" else {}
+        for each in (instance, untouched):
+            each.initialize(parameters=numbers(unit, HURRY))
+            each.set(rates)
+            for n in range(BEFORE):
+                each.step(n * STEP, STEP)
+        instance.set(gains)
+        slave = instance.slave
+        other.slave.setFMUstate(other.slave.deSerializeFMUstate(slave.serializeFMUstate(slave.getFMUstate())))
+        assert other.all(outputs) == instance.all(outputs) == untouched.all(outputs)
+        reals = [v for v in outputs if unit.variables[v].type == "Real"]
+        slopes = [[each.slope(v) for v in reals] for each in (instance, other, untouched)]
+        assert slopes[0] == slopes[1] == slopes[2]
+        for n in range(BEFORE, BEFORE + AFTER):
+            for each in (instance, other, untouched):
+                each.step(n * STEP, STEP)
+            assert other.all(outputs) == instance.all(outputs)
+        assert untouched.all(outputs) != instance.all(outputs), "gains act"
+
+
 def refused(instance: Instance, call: Callable[[], object]) -> str:
     """The message with which a call is refused."""
     with pytest.raises(Exception, match="failed with status 3"):

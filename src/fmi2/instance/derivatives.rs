@@ -38,7 +38,7 @@ impl<M: Model> Instance<M> {
     /// Reads derivatives of outputs at the end of the finished step.
     ///
     /// # Errors
-    /// If a variable has no derivative of this order.
+    /// If a variable has no derivative of this order, or it has no value at this instant.
     pub fn output_derivatives(&mut self, references: &[u32], orders: &[i32], values: &mut [f64]) -> Result<(), Error> {
         self.permit(Call::GetRealOutputDerivatives)?;
         self.observe()?;
@@ -54,6 +54,10 @@ impl<M: Model> Instance<M> {
                 (Some(Derivative::At(at)), ORDER) => *at(&mut self.now.data, variable.index),
                 (_, order) => return Err(none(variable, order, "an output")),
             };
+            if !value.is_finite() {
+                let reason = format!("the derivative of {} is {value}", variable.name);
+                return Err(Error::Outputs { time: self.now.time, reason });
+            }
         }
         Ok(())
     }
