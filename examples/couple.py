@@ -4,11 +4,14 @@ python examples/couple.py [FOLDER]    the folder holds the FMUs; default: out
 """
 
 import sys
+from ctypes import Array
+from functools import partial
 from pathlib import Path
 from shutil import rmtree
 
 import numpy as np
 from fmpy import extract, read_model_description
+from fmpy.fmi2 import FMU2Slave, fmi2Real, fmi2ValueReference
 from fmpy.simulation import instantiate_fmu
 
 try:
@@ -17,6 +20,26 @@ except ImportError:  # without it there are numbers, but no picture
     pyplot = None
 
 RECORDED = ["base.x", "base.y", "base.roll", "end_effector.x", "end_effector.y"]
+
+
+class Values:
+    """Some variables of a unit, with an array for their values that is made once.
+
+    FMPy's getReal and setReal take and give lists, for which they make two arrays in every call:
+    that takes longer than a step of a unit. Outputs of one unit and inputs of another may share
+    an array; then nothing is copied.
+    """
+
+    def __init__(self, unit: FMU2Slave, references: list[int], array: Array | None = None) -> None:
+        count = len(references)
+        self.array = (fmi2Real * count)() if array is None else array
+        arguments = unit.component, (fmi2ValueReference * count)(*references), count, self.array
+        self._get = partial(unit.fmi2GetReal, *arguments)
+        self.set = partial(unit.fmi2SetReal, *arguments)
+
+    def get(self) -> Array:
+        self._get()
+        return self.array
 
 
 def couple(folder: Path, step: float = 1e-3, stop: float = 30.0, **parameters: float | str) -> dict:
@@ -45,14 +68,17 @@ def couple(folder: Path, step: float = 1e-3, stop: float = 30.0, **parameters: f
     # Outputs of the controller that the plant has, too, are its inputs: the rates and `grasp`.
     shared = [name for name in ours if name in theirs and ours[name].causality == "output"]
     source, target = ([names[name].valueReference for name in shared] for names in (ours, theirs))
-    seen = [theirs[name].valueReference for name in RECORDED]
-    wanted = [ours[name].valueReference for name in ("reference.x", "reference.y")]
-    rows = [[0.0, *plant.getReal(seen), *controller.getReal(wanted)]]
+    outputs = Values(controller, source)
+    inputs = Values(plant, target, outputs.array)
+    seen = Values(plant, [theirs[name].valueReference for name in RECORDED])
+    wanted = Values(controller, [ours[f"reference.{axis}"].valueReference for axis in "xy"])
+    rows = [[0.0, *seen.get(), *wanted.get()]]
     for n in range(round(stop / step)):
-        plant.setReal(target, controller.getReal(source))
+        outputs.get()
+        inputs.set()
         for unit in units:
             unit.doStep(currentCommunicationPoint=n * step, communicationStepSize=step)
-        rows.append([(n + 1) * step, *plant.getReal(seen), *controller.getReal(wanted)])
+        rows.append([(n + 1) * step, *seen.get(), *wanted.get()])
     for unit, unpacked in zip(units, folders):
         unit.terminate()
         unit.freeInstance()

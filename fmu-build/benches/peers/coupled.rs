@@ -72,9 +72,9 @@ pub fn contest(pair: &Pair) -> Contest<'_> {
     Contest { title: "Coupled run, 30 s in steps of 1 ms", candidates }
 }
 
-/// The same in FMPy's loop: name, times real time.
+/// The same with masters in FMPy: name, times real time.
 pub fn in_fmpy(pair: &Pair, rounds: usize) -> Vec<(String, Spread)> {
-    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/peers/couple.py");
+    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/peers/masters.py");
     let Some(python) = std::env::var_os("PEERS_PYTHON") else {
         println!("skipped: FMPy (the environment variable PEERS_PYTHON names no interpreter)");
         return Vec::new();
@@ -86,18 +86,15 @@ pub fn in_fmpy(pair: &Pair, rounds: usize) -> Vec<(String, Spread)> {
         .output()
         .unwrap();
     assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
-    let lines = String::from_utf8(run.stdout).unwrap();
-    let results: Vec<(&str, f64)> = lines
-        .lines()
-        .map(|line| {
-            let (name, number) = line.split_once(' ').unwrap();
-            (name, number.parse().unwrap())
-        })
-        .collect();
-    let of = |name: &str| {
-        let times = results.iter().filter(|(found, _)| *found == name).map(|(_, number)| *number);
-        let resolution = Resolution::ExtendedJacobian.name();
-        (format!("FMPy, rates and grasp, {name}, {resolution}"), Spread::of(times.collect()))
-    };
-    vec![of("euler"), of("exact")]
+    let mut results: Vec<(String, Vec<f64>)> = Vec::new();
+    for line in String::from_utf8(run.stdout).unwrap().lines() {
+        let (number, name) = line.split_once(' ').unwrap();
+        let (number, name) =
+            (number.parse().unwrap(), format!("FMPy, {name}, {}", Resolution::ExtendedJacobian.name()));
+        match results.iter_mut().find(|(found, _)| *found == name) {
+            Some((_, numbers)) => numbers.push(number),
+            None => results.push((name, vec![number])),
+        }
+    }
+    results.into_iter().map(|(name, numbers)| (name, Spread::of(numbers))).collect()
 }
