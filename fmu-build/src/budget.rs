@@ -4,9 +4,11 @@
 use uam::parameters::{Discretization, Hold};
 use uam::scenarios::Scenario;
 
+use crate::claims::peak;
 use crate::coupling::{Coupling, Error, Order, Pair, Schedule};
 use crate::fmu::Value;
-use crate::record::{Names, Recorder, Recording};
+use crate::record::{Names, Recording};
+use crate::run::run_prepared;
 
 mod order;
 
@@ -136,24 +138,19 @@ impl Variant {
         if self.pilot == Pilot::SampledUnknown {
             coupling.plant.set_value("autopilot.sample_time", Value::Real(SAMPLE_TIME))?;
         }
-        let (controller, plant) = (pair.controller.description(), pair.plant.description());
-        let mut recorder = Recorder::new(&names(), controller, plant, schedule.steps() + 1)?;
-        coupling.run(&schedule, self.order, &mut |time, controller, plant| {
-            progress();
-            recorder.record(time, controller, plant)
-        })?;
-        Ok(Errors::of(&recorder.finish()))
+        let run = run_prepared(coupling, scenario, &schedule, self.order, &names(), progress)?;
+        match run.stopped {
+            None => Ok(Errors::of(&run.recording)),
+            Some(stopped) => Err(stopped),
+        }
     }
 }
 
-const AXES: [&str; 3] = ["x", "y", "roll"];
-
+/// The points between which errors are distances.
 fn names() -> Names {
-    let of = |body: &'static str, axes: &'static [&'static str]| axes.iter().map(move |axis| format!("{body}.{axis}"));
-    Names {
-        controller: of("reference", &AXES[..2]).chain(of("predicted.base", &AXES)).collect(),
-        plant: of("end_effector", &AXES[..2]).chain(of("base", &AXES)).collect(),
-    }
+    let of =
+        |points: [&str; 2]| points.iter().flat_map(|point| ["x", "y"].map(|axis| format!("{point}.{axis}"))).collect();
+    Names { controller: of(["reference", "predicted.base"]), plant: of(["end_effector", "base"]) }
 }
 
 /// The largest errors of a run.
@@ -167,14 +164,8 @@ pub struct Errors {
 
 impl Errors {
     fn of(recording: &Recording) -> Self {
-        let gap = |axis: &str| {
-            let (found, predicted) =
-                (recording.column(&format!("base.{axis}")), recording.column(&format!("predicted.base.{axis}")));
-            found.iter().zip(predicted).map(|(found, predicted)| found - predicted)
-        };
-        let base = gap("x").zip(gap("y")).map(|(x, y)| x.hypot(y)).fold(0.0, f64::max);
-        let end_effector = recording.tracking_error().into_iter().fold(0.0, f64::max);
-        Self { end_effector, base }
+        let largest = |found, wanted| peak(recording.distance(found, wanted));
+        Self { end_effector: largest("end_effector", "reference"), base: largest("base", "predicted.base") }
     }
 }
 

@@ -4,9 +4,10 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use anyhow::{Context, Result};
+use fmu_build::claims::DISCRETIZATIONS;
 use fmu_build::coupling::Pair;
 use fmu_build::run::Run;
-use fmu_build::study::DISCRETIZATIONS;
+use fmu_build::study::Summary;
 use fmu_build::{BuildOptions, Built, workspace};
 use indicatif::{ProgressBar, ProgressStyle};
 use uam::Structure;
@@ -90,6 +91,15 @@ fn wrote(files: &[PathBuf]) {
     println!("Written:");
     for file in files {
         println!("  {}", file.display());
+    }
+}
+
+/// Says which runs stopped early, and why.
+fn complain(summaries: &[Summary]) {
+    for Summary { scenario, outcomes } in summaries {
+        for complaint in outcomes.iter().filter_map(|outcome| outcome.complaint.as_ref()) {
+            println!("{}: {complaint}", scenario.id);
+        }
     }
 }
 

@@ -125,12 +125,20 @@ impl Recording {
     /// Distance between end effector and reference at every communication point \[m\].
     #[must_use]
     pub fn tracking_error(&self) -> Vec<f64> {
-        let way = |axis: &str| {
-            let (found, wanted) =
-                (self.column(&format!("end_effector.{axis}")), self.column(&format!("reference.{axis}")));
-            found.iter().zip(wanted).map(|(found, wanted)| found - wanted)
-        };
-        way("x").zip(way("y")).map(|(dx, dy)| dx.hypot(dy)).collect()
+        self.distance("end_effector", "reference")
+    }
+
+    /// Distance between two points, each named by what stands before `.x` and `.y`, in every row \[m\].
+    #[must_use]
+    pub fn distance(&self, found: &str, wanted: &str) -> Vec<f64> {
+        let along = |axis: &str| self.difference(&format!("{found}.{axis}"), &format!("{wanted}.{axis}"));
+        along("x").into_iter().zip(along("y")).map(|(dx, dy)| dx.hypot(dy)).collect()
+    }
+
+    /// By how much one column is above another, in every row.
+    #[must_use]
+    pub fn difference(&self, found: &str, wanted: &str) -> Vec<f64> {
+        self.column(found).iter().zip(self.column(wanted)).map(|(found, wanted)| found - wanted).collect()
     }
 }
 

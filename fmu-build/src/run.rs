@@ -54,7 +54,22 @@ pub fn run(
 ) -> Result<Run, Error> {
     let mut coupling = Coupling::new(pair)?;
     coupling.configure(scenario.structure, &scenario.parameters)?;
-    let (controller, plant) = (pair.controller.description(), pair.plant.description());
+    run_prepared(coupling, scenario, schedule, order, names, progress)
+}
+
+/// Runs units whose parameters are set, if not all to those of the scenario.
+///
+/// # Errors
+/// As [`run`].
+pub fn run_prepared(
+    mut coupling: Coupling,
+    scenario: &Scenario,
+    schedule: &Schedule,
+    order: Order,
+    names: &Names,
+    progress: &dyn Fn(),
+) -> Result<Run, Error> {
+    let (controller, plant) = (coupling.controller.description(), coupling.plant.description());
     let mut recorder = Recorder::new(names, controller, plant, schedule.steps() + 1)?;
     let begin = Instant::now();
     let result = coupling.run(schedule, order, &mut |time, controller, plant| {

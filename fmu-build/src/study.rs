@@ -9,13 +9,10 @@ use uam::options::Choice;
 use uam::parameters::Discretization;
 use uam::scenarios::{self, Scenario, catalogue};
 
-use crate::claims::{self, Claim, Numbers, Quantity, Row, Table};
+use crate::claims::{self, Claim, DISCRETIZATIONS, Numbers, Quantity, Row, Table};
 use crate::coupling::{Error, Order, Pair, Schedule};
 use crate::record::Names;
 use crate::run::{Run, run};
-
-/// The discretizations that are compared, in the order of the columns of tables.
-pub const DISCRETIZATIONS: [Discretization; 2] = [Discretization::Euler, Discretization::Exact];
 
 /// Runs a scenario at its own step with a discretization. `progress` hears of every communication point.
 ///
@@ -117,10 +114,7 @@ pub fn run_all<'a>(
     pair: &(dyn Fn(Structure) -> Option<&'a Pair> + Sync),
     progress: &(dyn Fn() + Sync),
 ) -> Result<Vec<Summary>, Error> {
-    let jobs: Vec<(&Scenario, Discretization)> = scenarios
-        .iter()
-        .flat_map(|scenario| DISCRETIZATIONS.map(|discretization| (scenario, discretization)))
-        .collect();
+    let jobs = with_each(&scenarios);
     let run = |&(scenario, discretization): &(&Scenario, Discretization)| {
         let pair = pair(scenario.structure).ok_or(Error::Empty)?;
         let run = run_with(pair, scenario, discretization, progress)?;
@@ -133,6 +127,11 @@ pub fn run_all<'a>(
         summaries.push(Summary { scenario: scenario.clone(), outcomes: [next()?, next()?] });
     }
     Ok(summaries)
+}
+
+/// Each of these with each of [`DISCRETIZATIONS`].
+pub fn with_each<T>(items: &[T]) -> Vec<(&T, Discretization)> {
+    items.iter().flat_map(|item| DISCRETIZATIONS.map(|discretization| (item, discretization))).collect()
 }
 
 /// Does all jobs, as many at a time as there are cores; results are in the order of the jobs.
@@ -200,9 +199,10 @@ pub fn pick_up_table(summaries: &[Summary]) -> Table {
         let quantities = if lost { vec![Quantity::LostAt] } else { PICK_UP.to_vec() };
         let row = |quantity: Quantity| {
             let values = numbers.map(|numbers| numbers.get(quantity));
-            let claim = claims::about(&summary.scenario.id)
-                .find(|claim| claim.quantity == quantity && claim.compared_with.is_none());
-            claim.map_or_else(|| Row::plain(quantity, values), |claim| Row::of(claim, values))
+            match claims::of(&summary.scenario.id, quantity) {
+                Some(claim) => Row::of(claim, values.map(Some)),
+                None => Row::plain(quantity, values),
+            }
         };
         let Scenario { id, parameters, .. } = &summary.scenario;
         let title = format!("{id} · {}, roll kd {}", parameters.ik.resolution.name(), parameters.autopilot.roll.kd);
@@ -211,25 +211,19 @@ pub fn pick_up_table(summaries: &[Summary]) -> Table {
     table
 }
 
-/// The numbers that a claim is about, if all its scenarios were run.
+/// The numbers that a claim is about, if all its scenarios were run; none for a ratio of two roundings.
 #[must_use]
-pub fn values(summaries: &[Summary], claim: &Claim) -> Option<[f64; 2]> {
+pub fn values(summaries: &[Summary], claim: &Claim) -> Option<[Option<f64>; 2]> {
     let numbers = |id: &str| {
         let summary = summaries.iter().find(|summary| summary.scenario.id == id)?;
         Some(summary.outcomes.each_ref().map(|outcome| outcome.numbers.get(claim.quantity)))
     };
     let [euler, exact] = numbers(claim.scenario)?;
     Some(match claim.compared_with {
-        None => [euler, exact],
+        None => [Some(euler), Some(exact)],
         Some(other) => {
             let [other_euler, other_exact] = numbers(other)?;
-            // What is nothing but rounding compares as if it were as large as that may be.
-            let ratio = |value: f64, other: f64| {
-                let [value, other] = [value, other]
-                    .map(|value| if value.is_nan() { value } else { value.max(claim.quantity.rounding()) });
-                value / other
-            };
-            [ratio(euler, other_euler), ratio(exact, other_exact)]
+            [claim.quantity.ratio(euler, other_euler), claim.quantity.ratio(exact, other_exact)]
         }
     })
 }

@@ -4,10 +4,10 @@
 
 mod common;
 
-use fmu_build::reach::{AGREEMENT, MOTIONS, Motion, Reach, Trial, reach};
-use fmu_build::study::{DISCRETIZATIONS, on_all_cores};
+use fmu_build::claims::DISCRETIZATIONS;
+use fmu_build::reach::{AGREEMENT, MOTIONS, Reach, Trial, reach};
+use fmu_build::study::{on_all_cores, with_each};
 use fmu_build::variation::vary;
-use uam::parameters::Discretization;
 use uam::scenarios::find;
 
 /// With an acceleration limit and a speed of the counterweight's law, neither of which the thesis prints, all four
@@ -15,8 +15,7 @@ use uam::scenarios::find;
 /// gains little where a payload is lifted.
 #[test]
 fn the_arm_reaches_as_far_as_in_the_thesis() {
-    let jobs: Vec<(Motion, Discretization)> =
-        MOTIONS.iter().flat_map(|&motion| DISCRETIZATIONS.map(|discretization| (motion, discretization))).collect();
+    let jobs = with_each(&MOTIONS);
     let reaches: Vec<Reach> = on_all_cores(&jobs, &|&(motion, discretization)| {
         let changes = [("joint[*].acceleration_limit", "20"), ("counterweight.time_constant", "0.4")];
         let scenario = vary(&find(motion.scenario).unwrap(), &changes).unwrap();

@@ -40,11 +40,21 @@ fn every_statement_of_the_thesis_holds_or_is_a_known_deviation() {
     for claim in claims::all() {
         let values = study::values(&SUMMARIES, claim).unwrap();
         for (i, value) in values.into_iter().enumerate() {
+            assert_eq!(value.is_none(), NOTHING_LEFT.contains(&(claim.scenario, claim.quantity, i)), "{claim:?}");
+            let Some(value) = value else { continue };
             assert!(value.is_finite() || ENDLESS.contains(&claim.quantity), "{claim:?}: {value}");
             assert_eq!(claim.agrees(value), claim.should_agree(i), "{claim:?}: {value}\n{table}");
         }
     }
 }
+
+/// Ratios of what is nothing but rounding in both simulations, with the discretization at this place.
+const NOTHING_LEFT: [(&str, Quantity, usize); 4] = [
+    ("3.4-2", Quantity::ErrorX, 1),
+    ("3.6c", Quantity::Moment, 1),
+    ("3.6c-segment", Quantity::Moment, 1),
+    ("3.7", Quantity::EarlyMoment, 1),
+];
 
 /// Times of what may never come.
 const ENDLESS: [Quantity; 2] = [Quantity::LostAt, Quantity::GivesWayAt];
@@ -94,23 +104,18 @@ const NOT_FOLLOWED: [(&str, &str); 3] = [
     ("4.3c-minimum-norm", "swings until the path is out of reach"),
 ];
 
-/// The table in the pages of this project is the one that `thesis --markdown` prints.
+/// The table in the README is the one that `thesis --markdown` prints.
 #[test]
-fn the_pages_hold_the_table_of_these_runs() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+fn the_readme_holds_the_table_of_these_runs() {
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../README.md");
+    let text = std::fs::read_to_string(page).unwrap();
+    let (_, after) = text.split_once("<!-- begin: thesis --markdown -->\n\n").unwrap();
+    let (found, _) = after.split_once("\n<!-- end -->").unwrap();
     let table = study::table(&SUMMARIES).markdown();
-    let mut pages = 0;
-    for page in ["README.md", "docs/thesis.md"] {
-        let text = std::fs::read_to_string(root.join(page)).unwrap();
-        let Some((_, after)) = text.split_once("<!-- begin: thesis --markdown -->\n\n") else { continue };
-        let (found, _) = after.split_once("\n<!-- end -->").unwrap();
-        for (found, wanted) in found.lines().zip(table.lines()) {
-            assert_eq!(found, wanted, "{page}: `cargo run --release -- thesis --markdown` prints the table");
-        }
-        assert_eq!(found.lines().count(), table.lines().count(), "{page}");
-        pages += 1;
+    for (found, wanted) in found.lines().zip(table.lines()) {
+        assert_eq!(found, wanted, "`cargo run --release -- thesis --markdown` prints the table");
     }
-    assert!(pages > 0);
+    assert_eq!(found.lines().count(), table.lines().count());
 }
 
 #[test]

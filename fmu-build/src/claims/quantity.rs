@@ -1,11 +1,10 @@
-//! Numbers that sum up a run, and how people read them.
-
-use std::fmt;
+//! Numbers that sum up a run.
 
 use uam::controller::Status;
 use uam::options::Choice;
 
 use super::LOST;
+use super::reading::{Reading, Shown};
 use crate::record::Recording;
 
 /// A number that sums up a run.
@@ -83,24 +82,6 @@ pub enum Quantity {
     GivesWayAt,
     /// When [`Quantity::TrackingError`] exceeds [`LOST`] for the first time.
     LostAt,
-}
-
-/// How a number is read.
-enum Reading {
-    Millimetres,
-    Metres,
-    MillimetresPerSecond,
-    MetresPerSecond,
-    Degrees,
-    Radians,
-    RadiansPerSecond,
-    RadiansPerSecond2,
-    Times,
-    Newtons,
-    NewtonMetres,
-    Percent,
-    /// A time, infinite if it never comes.
-    Seconds,
 }
 
 impl Quantity {
@@ -198,10 +179,7 @@ impl Quantity {
         let largest = |name: &str, sign: f64| peak(recording.column(name).iter().map(|value| sign * value));
         let size = |name: &str| peak(recording.column(name).iter().map(|value| value.abs()));
         let last = |name: &str| recording.column(name).last().copied().unwrap_or(f64::NAN);
-        let apart = |found: &str, wanted: &str| {
-            let pairs = recording.column(found).iter().zip(recording.column(wanted));
-            peak(pairs.map(|(found, wanted)| (found - wanted).abs()))
-        };
+        let apart = |found: &str, wanted: &str| peak(recording.difference(found, wanted).into_iter().map(f64::abs));
         let joints = |suffix: &'static str| {
             recording.names().filter(move |name| name.starts_with("joint[") && name.ends_with(suffix))
         };
@@ -223,19 +201,17 @@ impl Quantity {
             Self::Moment => size("transmitted.moment"),
             Self::EarlyMoment => peak_between(recording, "transmitted.moment", [0.0, 0.25]),
             Self::LateMoment => peak_between(recording, "transmitted.moment", [0.9, 1.0]),
-            Self::TrackingError => peak(recording.tracking_error().into_iter()),
+            Self::TrackingError => peak(recording.tracking_error()),
             Self::ErrorX => apart("end_effector.x", "reference.x"),
             Self::EarlyErrorX => {
-                let third = recording.len() / 3;
-                let pairs = recording.column("end_effector.x").iter().zip(recording.column("reference.x"));
-                peak(pairs.take(third).map(|(found, wanted)| (found - wanted).abs()))
+                let errors = recording.difference("end_effector.x", "reference.x").into_iter();
+                peak(errors.take(recording.len() / 3).map(f64::abs))
             }
             Self::FinalErrorX => (last("end_effector.x") - last("reference.x")).abs(),
             Self::ErrorY => apart("end_effector.y", "reference.y"),
             Self::ErrorYWithoutBase => {
-                let rows = recording.column("end_effector.y").iter().zip(recording.column("reference.y"));
-                let rows = rows.zip(recording.column("base.y"));
-                peak(rows.map(|((found, wanted), base)| (found - wanted - base).abs()))
+                let errors = recording.difference("end_effector.y", "reference.y").into_iter();
+                peak(errors.zip(recording.column("base.y")).map(|(error, base)| (error - base).abs()))
             }
             Self::VelocityError => velocity_error(recording),
             Self::JointsReturn => peak(joints("].position").map(|name| match recording.column(name) {
@@ -280,20 +256,23 @@ impl Quantity {
         }
     }
 
-    /// Numbers smaller than this are nothing but rounding, in SI units; 0 where nothing is lost by it.
+    /// How many times as large a number is as another one of this quantity; none if both are nothing but rounding.
+    ///
+    /// One that is nothing but rounding compares as if it were as large as that may be.
     #[must_use]
-    pub fn rounding(self) -> f64 {
-        match self.reading().1 {
-            Reading::Metres | Reading::MetresPerSecond | Reading::MillimetresPerSecond => 1e-9,
-            Reading::NewtonMetres => 1e-8,
-            _ => 0.0,
+    pub fn ratio(self, value: f64, other: f64) -> Option<f64> {
+        let rounding = self.reading().1.rounding();
+        if value.abs() <= rounding && other.abs() <= rounding {
+            return None;
         }
+        let [value, other] = [value, other].map(|value| if value.abs() < rounding { rounding } else { value });
+        Some(value / other)
     }
 
     /// The number as people read it.
     #[must_use]
     pub fn show(self, value: f64) -> Shown {
-        Shown { quantity: self, value }
+        Shown { reading: self.reading().1, value }
     }
 }
 
@@ -346,62 +325,15 @@ fn drift_speed(recording: &Recording, name: &str) -> f64 {
 
 /// How fast the distance between end effector and reference changes at most.
 fn velocity_error(recording: &Recording) -> f64 {
-    let along = |axis: &str| {
-        let [found, wanted] = ["end_effector", "reference"].map(|point| recording.column(&format!("{point}.{axis}")));
-        found.iter().zip(wanted).map(|(found, wanted)| found - wanted).collect::<Vec<f64>>()
-    };
+    let along = |axis: &str| recording.difference(&format!("end_effector.{axis}"), &format!("reference.{axis}"));
     let (times, x, y) = (recording.times(), along("x"), along("y"));
     peak((1..x.len()).map(|k| (x[k] - x[k - 1]).hypot(y[k] - y[k - 1]) / (times[k] - times[k - 1])))
 }
 
-/// A measured number with the unit in which it is read.
-#[derive(Debug, Clone, Copy)]
-pub struct Shown {
-    quantity: Quantity,
-    value: f64,
-}
-
-impl fmt::Display for Shown {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (value, rounding) = (self.value, self.quantity.rounding());
-        match self.quantity.reading().1 {
-            _ if value.is_nan() => write!(f, "–"),
-            // Alternate: what is nothing but rounding differs from machine to machine.
-            Reading::Metres if f.alternate() && value < rounding => write!(f, "< {rounding:e} m"),
-            Reading::MetresPerSecond if f.alternate() && value < rounding => write!(f, "< {rounding:e} m/s"),
-            Reading::MillimetresPerSecond if f.alternate() && value < rounding => write!(f, "< {rounding:e} m/s"),
-            Reading::NewtonMetres if f.alternate() && value < rounding => write!(f, "< {rounding:e} N m"),
-            Reading::Millimetres => readable(f, 1e3 * value, "mm"),
-            Reading::Metres => write!(f, "{value:.1e} m"),
-            Reading::MillimetresPerSecond => readable(f, 1e3 * value, "mm/s"),
-            Reading::MetresPerSecond => write!(f, "{value:.1e} m/s"),
-            Reading::Degrees => readable(f, value.to_degrees(), "°"),
-            Reading::Radians => readable(f, value, "rad"),
-            Reading::RadiansPerSecond => readable(f, value, "rad/s"),
-            Reading::RadiansPerSecond2 => readable(f, value, "rad/s2"),
-            Reading::Times => write!(f, "{value} times"),
-            Reading::Newtons => readable(f, value, "N"),
-            Reading::NewtonMetres => readable(f, value, "N m"),
-            Reading::Percent => readable(f, 100.0 * value, "%"),
-            Reading::Seconds if value.is_infinite() => write!(f, "never"),
-            Reading::Seconds => write!(f, "{value:.1} s"),
-        }
-    }
-}
-
-/// Three digits or so, without noise: what is a thousandth of the unit or less is written with a power of ten.
-fn readable(f: &mut fmt::Formatter<'_>, value: f64, unit: &str) -> fmt::Result {
-    match value.abs() {
-        0.0 => write!(f, "0 {unit}"),
-        size if size < 1e-3 => write!(f, "{value:.0e} {unit}"),
-        size if size < 1.0 => write!(f, "{value:.3} {unit}"),
-        size if size < 10.0 => write!(f, "{value:.2} {unit}"),
-        size if size < 1e4 => write!(f, "{value:.1} {unit}"),
-        _ => write!(f, "{value:.1e} {unit}"),
-    }
-}
-
 /// The largest of the numbers; not a number if there are none or one of them is not.
-pub(super) fn peak(values: impl Iterator<Item = f64>) -> f64 {
-    values.reduce(|peak, value| if peak >= value || peak.is_nan() { peak } else { value }).unwrap_or(f64::NAN)
+pub fn peak(values: impl IntoIterator<Item = f64>) -> f64 {
+    values
+        .into_iter()
+        .reduce(|peak, value| if peak >= value || peak.is_nan() { peak } else { value })
+        .unwrap_or(f64::NAN)
 }

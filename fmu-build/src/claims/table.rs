@@ -61,24 +61,25 @@ impl Row {
         }
     }
 
-    /// Numbers beside a claim about them; ratios if the claim compares.
-    pub fn of(claim: &Claim, values: impl IntoIterator<Item = f64>) -> Self {
+    /// Numbers beside a claim about them; ratios if the claim compares, and none where there is nothing to compare.
+    pub fn of(claim: &Claim, values: impl IntoIterator<Item = Option<f64>>) -> Self {
         let show = |value: f64| match claim.compared_with {
             None => format!("{:#}", claim.quantity.show(value)),
             Some(_) if value.is_nan() => "–".to_owned(),
             // Against something that is nothing but rounding.
-            Some(_) if value.abs() > 1e3 => "> 1000 times".to_owned(),
+            Some(_) if value > 1e3 => "> 1000 times".to_owned(),
             Some(_) if value.abs() < 0.01 => format!("{value:.0e} times"),
             Some(_) => format!("{value:.2} times"),
+        };
+        let cell = |value: Option<f64>| match value {
+            Some(value) => Cell { text: show(value), agrees: Some(claim.agrees(value)) },
+            None => Cell { text: format!("both {:#}", claim.quantity.show(0.0)), agrees: None },
         };
         let label = claim.quantity.label();
         Self {
             quantity: claim.compared_with.map_or(label.to_owned(), |other| format!("{label}, against {other}")),
             thesis: Some(claim.thesis),
-            cells: values
-                .into_iter()
-                .map(|value| Cell { text: show(value), agrees: Some(claim.agrees(value)) })
-                .collect(),
+            cells: values.into_iter().map(cell).collect(),
             remark: claim.deviation.map(|deviation| remark(claim.scenario, &deviation)),
         }
     }
@@ -133,7 +134,7 @@ impl Table {
             let name = section.title.split(' ').next().unwrap_or_default();
             for (i, Row { quantity, thesis, cells, .. }) in section.rows.iter().enumerate() {
                 let name = if i == 0 { format!("**{name}**") } else { String::new() };
-                let cells = cells.iter().map(|cell| format!("{} {}", cell.text, cell.mark()));
+                let cells = cells.iter().map(|cell| format!("{} {}", cell.text, cell.mark()).trim_end().to_owned());
                 let head = [name, quantity.clone(), thesis.unwrap_or_default().to_owned()];
                 text += &row(&mut head.into_iter().chain(cells));
             }

@@ -7,11 +7,11 @@ use fmu_build::coupling::Pair;
 use fmu_build::record::{Recording, write_csv};
 use fmu_build::report;
 use fmu_build::run::Run;
-use fmu_build::study::{self, Case, DISCRETIZATIONS};
+use fmu_build::study::{self, Case, Summary};
 use uam::Structure;
 use uam::options::Choice;
 
-use super::{Progress, build_here, speed, wrote};
+use super::{Progress, build_here, complain, speed, wrote};
 
 /// The csv holds every so many communication points: fine enough to plot, small enough for spreadsheets.
 const CSV_STRIDE: usize = 10;
@@ -24,12 +24,9 @@ pub fn execute(out: &Path) -> Result<()> {
     let cases = run_all(&pair)?;
     let runs = || cases.iter().flat_map(|case| &case.runs);
     println!("\nThe pick-up of thesis 4.3, {} coupled runs of both FMUs\n", runs().count());
-    println!("{}\n", study::pick_up_table(&cases.iter().map(Case::summary).collect::<Vec<_>>()));
-    for run in runs() {
-        if let Some(complaint) = run.complaint() {
-            println!("{}: {complaint}", run.scenario.id);
-        }
-    }
+    let summaries: Vec<Summary> = cases.iter().map(Case::summary).collect();
+    println!("{}\n", study::pick_up_table(&summaries));
+    complain(&summaries);
     println!("{}\n", speed(&runs().collect::<Vec<_>>()));
 
     let (csv, page) = (out.join("pick-up.csv"), out.join("report.html"));
@@ -45,9 +42,7 @@ pub fn execute(out: &Path) -> Result<()> {
 
 fn run_all(pair: &Pair) -> Result<Vec<Case>> {
     let scenarios = study::pick_up()?;
-    let points: f64 = scenarios.iter().map(|scenario| scenario.duration / scenario.step).sum();
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "only for the progress bar")]
-    let progress = Progress::new(points as u64 * DISCRETIZATIONS.len() as u64, "Simulating")?;
+    let progress = Progress::of(&scenarios, "Simulating")?;
     let cases = scenarios.into_iter().map(|scenario| Case::run(pair, scenario, &|| progress.point()));
     let cases = cases.collect::<Result<_, _>>();
     progress.finish();

@@ -5,10 +5,9 @@ use std::path::Path;
 use anyhow::{Context, Result, anyhow};
 use fmu_build::reach::{LONGEST, MOTIONS, Reach, STRIDE, Trial, reach};
 use fmu_build::report;
-use fmu_build::study::{DISCRETIZATIONS, on_all_cores};
+use fmu_build::study::{on_all_cores, with_each};
 use fmu_build::variation::vary;
-use uam::parameters::Discretization;
-use uam::scenarios::{Scenario, find};
+use uam::scenarios::find;
 
 use super::{Pairs, Progress, wrote};
 use crate::cli::{Change, ReachArguments};
@@ -19,10 +18,7 @@ pub fn execute(arguments: &ReachArguments, out: &Path) -> Result<()> {
     let scenario = |id: &str| anyhow::Ok(vary(&find(id)?, &changes)?);
     let scenarios = MOTIONS.iter().map(|motion| scenario(motion.scenario)).collect::<Result<Vec<_>>>()?;
     let pairs = Pairs::build(out, scenarios.iter().map(|scenario| scenario.structure))?;
-    let jobs: Vec<(&Scenario, Discretization)> = scenarios
-        .iter()
-        .flat_map(|scenario| DISCRETIZATIONS.map(|discretization| (scenario, discretization)))
-        .collect();
+    let jobs = with_each(&scenarios);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "only for the progress bar")]
     let strides = (LONGEST / STRIDE) as u64;
     let progress = Progress::new(strides * jobs.len() as u64, "Enlarging the motions")?;

@@ -4,10 +4,10 @@ use std::path::Path;
 use std::time::Instant;
 
 use anyhow::Result;
-use fmu_build::study::{self, Outcome};
+use fmu_build::study;
 use uam::scenarios::catalogue;
 
-use super::{Pairs, Progress};
+use super::{Pairs, Progress, complain};
 use crate::cli::ThesisArguments;
 
 pub fn execute(arguments: &ThesisArguments, out: &Path) -> Result<()> {
@@ -30,14 +30,9 @@ pub fn execute(arguments: &ThesisArguments, out: &Path) -> Result<()> {
     for remark in table.remarks() {
         println!("  ✗ {remark}");
     }
-    let outcomes =
-        || summaries.iter().flat_map(|summary| summary.outcomes.iter().map(move |outcome| (summary, outcome)));
-    for (summary, outcome) in outcomes() {
-        if let Some(complaint) = &outcome.complaint {
-            println!("{}: {complaint}", summary.scenario.id);
-        }
-    }
-    let simulated: f64 = outcomes().map(|(_, Outcome { simulated, .. })| simulated).sum();
+    let outcomes = || summaries.iter().flat_map(|summary| &summary.outcomes);
+    complain(&summaries);
+    let simulated: f64 = outcomes().map(|outcome| outcome.simulated).sum();
     println!("{} runs, {simulated:.0} s simulated in {elapsed:.1} s.", outcomes().count());
     Ok(())
 }

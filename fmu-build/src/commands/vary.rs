@@ -3,13 +3,13 @@
 use std::path::Path;
 
 use anyhow::{Result, ensure};
-use fmu_build::claims::{self, Claim, Quantity, Row, Table};
-use fmu_build::study::{self, DISCRETIZATIONS, Summary};
+use fmu_build::claims::{self, Claim, DISCRETIZATIONS, Quantity, Row, Table};
+use fmu_build::study::{self, Summary};
 use fmu_build::variation::vary;
 use uam::options::Choice;
 use uam::scenarios::{Scenario, find};
 
-use super::{Pairs, Progress};
+use super::{Pairs, Progress, complain};
 use crate::cli::VaryArguments;
 
 pub fn execute(arguments: &VaryArguments, out: &Path) -> Result<()> {
@@ -39,16 +39,15 @@ pub fn execute(arguments: &VaryArguments, out: &Path) -> Result<()> {
     for (i, discretization) in DISCRETIZATIONS.iter().enumerate() {
         let mut rows = Vec::new();
         for claim in &claims {
-            let values =
-                columns.iter().map(|summaries| study::values(summaries, claim).map_or(f64::NAN, |values| values[i]));
+            let values = columns
+                .iter()
+                .map(|summaries| study::values(summaries, claim).map_or(Some(f64::NAN), |values| values[i]));
             rows.push(Row::of(claim, values));
         }
-        let known = |quantity: &Quantity| {
-            claims.iter().any(|claim| claim.quantity == *quantity && claim.compared_with.is_none())
+        let wanted = |quantity: &Quantity| {
+            (arguments.all || claims.is_empty()) && claims::of(&scenarios[0].id, *quantity).is_none()
         };
-        for quantity in
-            Quantity::ALL.into_iter().filter(|quantity| (arguments.all || claims.is_empty()) && !known(quantity))
-        {
+        for quantity in Quantity::ALL.into_iter().filter(wanted) {
             let values: Vec<f64> =
                 columns.iter().map(|summaries| summaries[0].outcomes[i].numbers.get(quantity)).collect();
             // Not a number: the vehicle has nothing of this kind.
@@ -59,11 +58,7 @@ pub fn execute(arguments: &VaryArguments, out: &Path) -> Result<()> {
         table.add(format!("{} · {} · by {}", scenarios[0].id, discretization.name(), names.join(", ")), rows);
     }
     println!("{table}");
-    for summary in &summaries {
-        for complaint in summary.outcomes.iter().filter_map(|outcome| outcome.complaint.as_ref()) {
-            println!("{}: {complaint}", summary.scenario.id);
-        }
-    }
+    complain(&summaries);
     Ok(())
 }
 

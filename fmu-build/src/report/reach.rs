@@ -6,9 +6,9 @@ use uam::scenarios::Scenario;
 
 use super::chart::{Across, Curve, Panel, Scale};
 use super::{Error, Figure, Report, Topic, style};
+use crate::claims::DISCRETIZATIONS;
 use crate::claims::{Cell, Row, Table};
 use crate::reach::{AGREEMENT, BALANCED, MOTIONS, Reach};
-use crate::study::DISCRETIZATIONS;
 
 /// The reaches of all motions beside those of the thesis. `results`: for each scenario those with each
 /// discretization.

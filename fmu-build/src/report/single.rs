@@ -4,7 +4,7 @@ use maud::html;
 use uam::options::Choice;
 
 use super::{Error, Report, Series, Topic, figures, style};
-use crate::claims::{self, Claim, Quantity, Row, Table};
+use crate::claims::{self, Quantity, Row, Table};
 use crate::coupling::Schedule;
 use crate::run::Run;
 
@@ -21,9 +21,8 @@ pub fn report(run: &Run, schedule: &Schedule) -> Result<Report, Error> {
     let mut table = Table::new([discretization]);
     let row = |quantity: Quantity| {
         let value = quantity.measure(&run.recording);
-        let of_this = |claim: &&Claim| claim.quantity == quantity && claim.compared_with.is_none();
-        match claims::about(&scenario.id).find(of_this).filter(|_| as_in_thesis) {
-            Some(claim) => Some(Row::of(claim, [value])),
+        match claims::of(&scenario.id, quantity).filter(|_| as_in_thesis) {
+            Some(claim) => Some(Row::of(claim, [Some(value)])),
             // Not a number: the vehicle has nothing of this kind.
             None => (!value.is_nan()).then(|| Row::plain(quantity, [value])),
         }
