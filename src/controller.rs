@@ -15,7 +15,7 @@ mod response;
 use nalgebra::Vector3;
 
 pub use planner::Controller;
-pub use resolution::{PATH_THRESHOLD, PseudoInverse, Task, resolve};
+pub use resolution::{PATH_THRESHOLD, PseudoInverse, Query, Task};
 
 use crate::bytes::Memory;
 use crate::error::Result;
@@ -124,6 +124,12 @@ impl Default for Outputs {
 
 /// A controller of any number of coordinates.
 pub trait Planner: Memory + Send {
+    /// Plans the first interval and writes all outputs, at the start.
+    ///
+    /// # Errors
+    /// If there is no plan of finite rates.
+    fn begin(&mut self, outputs: &mut Outputs) -> Result<()>;
+
     /// Advances the prediction from `t`, counted from the start, by `size` \[s\] and plans if it is time.
     ///
     /// # Errors
@@ -164,16 +170,16 @@ impl Clone for Box<dyn Planner> {
 pub fn without_plan(structure: Structure, parameters: &Parameters) -> Result<Box<dyn Planner>> {
     parameters.check_together(structure)?;
     method::check(structure, parameters)?;
-    for_coordinates!(structure, N => Ok(Box::new(Controller::<N>::without_plan(structure, parameters)?)))
+    for_coordinates!(structure, N => Ok(Box::new(Controller::<N>::new(structure, parameters)?)))
 }
 
-/// A controller at the start, with the first interval planned; each of the `parameters` is within its bounds
-/// ([`Parameters::check`]).
+/// A controller at the start, with the first interval planned and the outputs written; each of the `parameters` is within
+/// its bounds ([`Parameters::check`]).
 ///
 /// # Errors
 /// If parameters do not go together.
 pub fn new(structure: Structure, parameters: &Parameters, outputs: &mut Outputs) -> Result<Box<dyn Planner>> {
-    parameters.check_together(structure)?;
-    method::check(structure, parameters)?;
-    for_coordinates!(structure, N => Ok(Box::new(Controller::<N>::new(structure, parameters, outputs)?)))
+    let mut planner = without_plan(structure, parameters)?;
+    planner.begin(outputs)?;
+    Ok(planner)
 }

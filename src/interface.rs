@@ -42,13 +42,13 @@ struct Balancing {
 
 impl Balancing {
     fn new(balance: Balance) -> Option<Self> {
-        let name = balance.prefix()?;
+        let (name, moved_by) = (balance.prefix()?, balance.moved_by()?);
         match balance {
             Balance::None => None,
             Balance::Counterweight => Some(Self {
                 name,
                 noun: "counterweight",
-                moved_by: Resolution::LeastSquares,
+                moved_by,
                 place: "Position of the counterweight along the UAV's x axis",
                 exerted: "Force of the motor of the counterweight on it",
                 effort: "force",
@@ -57,7 +57,7 @@ impl Balancing {
             Balance::Element => Some(Self {
                 name,
                 noun: "balance element",
-                moved_by: Resolution::AccelerationLevel,
+                moved_by,
                 place: "Angle of the balance element in the UAV frame",
                 exerted: "Torque of the motor of the balance element on it",
                 effort: "torque",

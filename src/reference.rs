@@ -58,19 +58,17 @@ impl Leg {
         if elapsed <= 0.0 || self.duration == 0.0 {
             return [0.0; 3];
         }
-        if elapsed >= self.duration {
+        let left = self.duration - elapsed;
+        if left <= 0.0 {
             return [1.0, 0.0, 0.0];
         }
         let cruise = 1.0 / (self.duration - self.ramp);
-        let left = self.duration - elapsed;
-        if elapsed < self.ramp {
-            self.profile.ramp(elapsed, self.ramp).map(|value| cruise * value)
-        } else if left < self.ramp {
-            let [way, rate, acceleration] = self.profile.ramp(left, self.ramp).map(|value| cruise * value);
-            [1.0 - way, rate, -acceleration]
-        } else {
-            [cruise * (elapsed - 0.5 * self.ramp), cruise, 0.0]
+        let nearer = elapsed.min(left);
+        if nearer >= self.ramp {
+            return [cruise * (elapsed - 0.5 * self.ramp), cruise, 0.0];
         }
+        let [way, rate, acceleration] = self.profile.ramp(nearer, self.ramp).map(|value| cruise * value);
+        if elapsed < left { [way, rate, acceleration] } else { [1.0 - way, rate, -acceleration] }
     }
 }
 
@@ -159,13 +157,12 @@ impl Reference {
         let mut target = Target::AT_REST;
         match self.kind {
             ReferenceKind::Path => {
-                for leg in self.legs.iter().filter(|leg| leg.duration != 0.0 && leg.start < t) {
-                    let way = vec2(leg.dx, leg.dy);
-                    if t - leg.start >= leg.duration {
-                        target.displacement += way;
+                for leg in &self.legs {
+                    let [share, rate, acceleration] = leg.progress(t);
+                    if share == 0.0 {
                         continue;
                     }
-                    let [share, rate, acceleration] = leg.progress(t);
+                    let way = vec2(leg.dx, leg.dy);
                     target.displacement += way * share;
                     target.velocity += way * rate;
                     target.acceleration += way * acceleration;

@@ -8,7 +8,8 @@ use common::random::Random;
 use common::{assert_close, cases};
 use nalgebra::{DMatrix, DVector, Dyn, SMatrix, SVD, SVector};
 use proptest::prelude::*;
-use uam::controller::{PATH_THRESHOLD, PseudoInverse, Task, resolve};
+use uam::controller::{PATH_THRESHOLD, PseudoInverse, Query, Task};
+use uam::parameters::PathAxes;
 use uam::planar::{Vec2, vec2};
 
 /// Length of the stretched arm.
@@ -41,7 +42,8 @@ impl<const N: usize> Problem<N> {
     }
 
     fn resolve(&self, with_task: bool) -> PseudoInverse<N> {
-        resolve(&self.path, self.velocity, &SVector::zeros(), with_task.then_some(&self.task), REACH)
+        let task = with_task.then_some(self.task);
+        Query { path: self.path, axes: PathAxes::Both, velocity: self.velocity, task }.resolve(REACH)
     }
 }
 
@@ -137,7 +139,7 @@ proptest! {
 #[test]
 fn the_stretched_arm_gives_up_what_it_cannot_do() {
     let path = SMatrix::<f64, 2, 2>::from_columns(&[vec2(0.26, 0.0), vec2(0.13, 0.0)]);
-    let found = resolve(&path, vec2(0.1, 0.1), &SVector::zeros(), None, 0.26);
+    let found = Query { path, axes: PathAxes::Both, velocity: vec2(0.1, 0.1), task: None }.resolve(0.26);
     let factor = 0.1 / (0.26_f64.powi(2) + 0.13_f64.powi(2));
     assert_close(found.rate.as_slice(), &[0.26 * factor, 0.13 * factor], 1e-14, "rate");
     assert!(found.path_damped && found.min_singular_value == 0.0);
@@ -148,7 +150,24 @@ fn the_stretched_arm_gives_up_what_it_cannot_do() {
 fn a_task_that_contradicts_the_path_gives_way() {
     let path = SMatrix::<f64, 2, 3>::from_columns(&[vec2(0.3, 0.1), vec2(0.1, 0.2), vec2(-0.1, 0.2)]);
     let task = Task { row: path.row(0).transpose(), value: 1.0 };
-    let found = resolve(&path, vec2(0.1, -0.1), &SVector::zeros(), Some(&task), REACH);
+    let found = Query { path, axes: PathAxes::Both, velocity: vec2(0.1, -0.1), task: Some(task) }.resolve(REACH);
     assert!(found.task_damped && !found.path_damped);
     assert_close((path * found.rate).as_slice(), &[0.1, -0.1], 1e-8, "velocity");
+}
+
+/// Along one axis the path is one row, far from a singular configuration as long as anything moves along it.
+#[test]
+fn a_path_along_one_axis_leaves_the_other_alone() {
+    let path = SMatrix::<f64, 2, 3>::from_columns(&[vec2(0.3, 0.0), vec2(0.1, 0.0), vec2(-0.1, 0.0)]);
+    let task = Task { row: SVector::from([0.1, 0.2, 0.3]), value: 1.0 };
+    let query = Query { path, axes: PathAxes::Horizontal, velocity: vec2(0.1, 0.0), task: Some(task) };
+    let found = query.resolve(REACH);
+    let rows = SMatrix::<f64, 2, 3>::from_rows(&[path.row(0).into_owned(), task.row.transpose()]);
+    let expected = rows.pseudo_inverse(0.0).unwrap() * vec2(0.1, 1.0);
+    assert_close(found.rate.as_slice(), expected.as_slice(), 1e-13, "rate");
+    assert_close(&[found.min_singular_value], &[path.row(0).norm()], 1e-15, "smallest singular value");
+    assert!(!found.path_damped && !found.task_damped);
+
+    let found = Query { path: path * 0.01, ..query }.resolve(REACH);
+    assert!(found.path_damped && found.rate.iter().all(|rate| rate.is_finite()));
 }

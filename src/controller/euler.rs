@@ -18,42 +18,24 @@ impl<const N: usize> Outset<N> {
         let here = &self.now.situation;
         let carried = self.now.carried + self.dynamics.begin_explicit(here, t, horizon, &mut end.situation.state);
         let response = self.response(&here.node, here.turn, &end.situation.state);
-        let wanted = here.turn.undo(velocity) - response.end_effector_free;
-        let resolved = self.resolver.solve(
-            &self.dynamics.vehicle,
-            &Problem {
-                beginning: here,
-                path: response.jacobian,
-                velocity: wanted,
-                moment: Task { row: response.carried, value: carried - response.carried_free },
-                allowed: &self.allowed(horizon),
-                guess: &self.places,
-            },
-        );
-        let rate = resolved.rate;
-        self.dynamics.end_explicit(
-            here,
-            response.base_velocity(&rate),
-            &rate,
-            &(rate * horizon),
-            [t, horizon],
-            &mut end.situation,
-        );
-        end.carried = response.carried_momentum(&rate);
-        let motion = match self.hold {
-            Hold::ZeroOrder => Motion::constant(rate),
-            // As the thesis handed its rates to the multibody program: linear in between.
-            Hold::FirstOrder => {
-                let first = self.resolver.within_limits(self.motion.rate);
-                Motion { rate: first, slope: (rate - first) / horizon }
-            }
+        let problem = Problem {
+            path: response.jacobian,
+            velocity: here.turn.undo(velocity) - response.end_effector_free,
+            moment: Task { row: response.carried, value: carried - response.carried_free },
         };
+        let resolved = self.solve(&problem, horizon, &self.places);
+        let rate = resolved.rate;
+        self.end_explicit(here, &response, &rate, &(rate * horizon), [t, horizon], end);
         Plan {
-            motion,
+            motion: match self.hold {
+                Hold::ZeroOrder => Motion::constant(rate),
+                // As the thesis handed its rates to the multibody program.
+                Hold::FirstOrder => self.accelerating_to(&rate, horizon),
+            },
             status: resolved.status,
             places: resolved.places,
             min_singular_value: resolved.min_singular_value,
-            velocity_residual: (response.jacobian * rate - wanted).norm(),
+            velocity_residual: (problem.path * rate - problem.velocity).norm(),
             moment_residual: (carried - end.carried) / horizon,
         }
     }
@@ -66,14 +48,6 @@ impl<const N: usize> Outset<N> {
         let (here, rate) = (&self.now.situation, self.motion.rate_after(size));
         self.dynamics.begin_explicit(here, t, size, &mut end.situation.state);
         let response = self.response(&here.node, here.turn, &end.situation.state);
-        self.dynamics.end_explicit(
-            here,
-            response.base_velocity(&rate),
-            &rate,
-            &(rate * size),
-            [t, size],
-            &mut end.situation,
-        );
-        end.carried = response.carried_momentum(&rate);
+        self.end_explicit(here, &response, &rate, &(rate * size), [t, size], end);
     }
 }

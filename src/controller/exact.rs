@@ -15,37 +15,38 @@ use super::resolution::{Problem, Task};
 use crate::dynamics::{Account, Loads, Motion, Situation};
 use crate::error::Result;
 use crate::parameters::Hold;
+use crate::planar::Vec2;
 use crate::reference::Target;
 
 /// Iterations of a plan at most; one does normally, more where a stiff autopilot answers within the interval.
-pub(super) const ITERATIONS: usize = 6;
+const ITERATIONS: usize = 6;
 
 /// End effector this close to the reference at the end of the interval is on it \[m\].
-pub(super) const ON_REFERENCE: f64 = 1e-12;
+const ON_REFERENCE: f64 = 1e-12;
 
 /// Farther from the reference than this, an iteration that has come to its end has failed \[m\].
 pub(super) const INEXACT: f64 = 1e-6;
 
 /// Moment impulses on the UAV below this are none \[N m s\].
-pub(super) const NO_IMPULSE: f64 = 1e-12;
+const NO_IMPULSE: f64 = 1e-12;
 
 impl<const N: usize> Outset<N> {
-    /// Rates for the interval of length `horizon` from time `t` that bring the end effector onto the `target`
-    /// at its end, as near as the iteration gets: its place, and with a hold of first order its velocity.
-    /// Writes the prediction at its `end`.
+    /// The motion in the interval of length `horizon` from time `t` at whose end the end effector is on the `target`, as
+    /// near as the iteration gets: at its place, with a hold of first order with its velocity, too, and if
+    /// accelerations are chosen with its velocity alone. Writes the prediction at its `end`.
     ///
     /// # Errors
     /// If the interval cannot be integrated.
     pub fn plan_exact(&self, t: f64, horizon: f64, target: &Target, end: &mut Prediction<N>) -> Result<Plan<N>> {
-        let ramped = self.hold == Hold::FirstOrder;
-        let mut plan = Plan { places: self.places, ..Plan::moving(if ramped { self.motion } else { self.go_on() }) };
-        let allowed = self.allowed(horizon);
+        let accelerates = self.resolver.accelerates();
+        let ramped = accelerates || self.hold == Hold::FirstOrder;
+        let mut plan = Plan { places: self.places, ..Plan::moving(self.go_on(horizon)) };
         let mut left_over = 0.0;
         let mut nearest: Option<(f64, Plan<N>)> = None;
         for iteration in 0..=ITERATIONS {
             let impulse = self.carry_out(&mut plan, t, horizon, end)?;
             let moment = plan.moment_residual * horizon;
-            let missing = target.displacement - end.end_effector();
+            let missing = self.missing(target, horizon, &end.situation);
             let miss = missing.norm();
             let moment_free = !self.resolver.cancels_moment() || (moment - left_over).abs() <= NO_IMPULSE;
             if iteration > 0 {
@@ -62,21 +63,14 @@ impl<const N: usize> Outset<N> {
 
             let Situation { node, turn, state } = &end.situation;
             let response = self.response(node, *turn, state);
-            let mean = plan.motion.rate_after(0.5 * horizon);
-            let velocity = response.jacobian * mean + turn.undo(missing / horizon);
-            let moment = Task { row: response.carried, value: self.now.carried + impulse - response.carried_free };
-            let mut problem = Problem {
-                beginning: &self.now.situation,
+            let carried = self.now.carried + impulse;
+            let mean = Problem {
                 path: response.jacobian,
-                velocity,
-                moment,
-                allowed: &allowed,
-                guess: &plan.places,
+                velocity: response.jacobian * plan.motion.rate_after(0.5 * horizon) + turn.undo(missing / horizon),
+                moment: Task { row: response.carried, value: carried - response.carried_free },
             };
-            if ramped {
-                problem.velocity = turn.undo(target.velocity) - response.end_effector_free;
-            }
-            let resolved = self.resolver.solve(&self.dynamics.vehicle, &problem);
+            let asked = if ramped { self.at_end(&response, *turn, target.velocity, carried) } else { mean };
+            let resolved = self.solve(&asked, horizon, &plan.places);
             if iteration > 0 && resolved.status != Status::Ok && resolved.status == plan.status && !ramped {
                 // The path is given up in part: whether the rates still change says when it is over.
                 let change = (resolved.rate - plan.motion.rate).norm() * horizon * self.resolver.reach;
@@ -84,12 +78,14 @@ impl<const N: usize> Outset<N> {
                     return Ok(plan);
                 }
             }
-            let motion = if ramped && resolved.status == Status::Ok {
-                self.ramp(&Problem { velocity, ..problem }, &resolved.rate, horizon)
+            plan.motion = if accelerates {
+                self.accelerating_to(&resolved.rate, horizon)
+            } else if ramped && resolved.status == Status::Ok {
+                self.ramp(&mean, &resolved.rate, horizon)
             } else {
                 Motion::constant(resolved.rate)
             };
-            (plan.motion, plan.status, plan.places) = (motion, resolved.status, resolved.places);
+            (plan.status, plan.places) = (resolved.status, resolved.places);
             plan.min_singular_value = resolved.min_singular_value;
             left_over = resolved.moment;
         }
@@ -102,11 +98,27 @@ impl<const N: usize> Outset<N> {
         Ok(plan)
     }
 
-    /// Constant rates that go on changing as they did, along a cubic: so close that one iteration leaves nothing, where
-    /// rates extrapolated along a straight line take two.
-    fn go_on(&self) -> Motion<N> {
-        let [first, second, third] = &self.before;
-        Motion::constant((self.motion.rate + second) * 4.0 - first * 6.0 - third)
+    /// The motion that goes on as before: along a ramp, or at constant rates that go on changing along a cubic, so close
+    /// that one iteration leaves nothing, where rates extrapolated along a straight line take two.
+    fn go_on(&self, horizon: f64) -> Motion<N> {
+        if self.resolver.accelerates() {
+            self.accelerating_to(&self.motion.rate_after(horizon), horizon)
+        } else if self.hold == Hold::FirstOrder {
+            self.motion
+        } else {
+            let [first, second, third] = &self.before;
+            Motion::constant((self.motion.rate + second) * 4.0 - first * 6.0 - third)
+        }
+    }
+
+    /// How far the end effector is from the `target` at the `end` of the interval of length `horizon`, or will be at
+    /// the end of the next one if its velocity counts \[m\].
+    fn missing(&self, target: &Target, horizon: f64, end: &Situation<N>) -> Vec2 {
+        if self.resolver.accelerates() {
+            self.resolver.followed(target.velocity - self.end_effector_velocity(end, end.base())) * horizon
+        } else {
+            target.displacement - end.place(end.node.posture.end_effector)
+        }
     }
 
     /// Integrates the interval of length `horizon` from time `t` in the motion of the `plan`: where it ends, and the
@@ -128,9 +140,9 @@ impl<const N: usize> Outset<N> {
     ///
     /// Where it has a choice it begins at the rates with which the interval before ended; in the direction of
     /// the path it cannot, for a ramp from given rates to a given place would ring for ever.
-    fn ramp(&self, problem: &Problem<'_, N>, last: &SVector<f64, N>, horizon: f64) -> Motion<N> {
+    fn ramp(&self, problem: &Problem<N>, last: &SVector<f64, N>, horizon: f64) -> Motion<N> {
         let smooth = (self.motion.rate + last) * 0.5;
-        let mean = self.resolver.nearest(problem, &smooth);
+        let mean = self.resolver.nearest(problem, &smooth).rate;
         let first = self.resolver.within_limits(mean * 2.0 - last);
         Motion { rate: first, slope: (last - first) / horizon }
     }

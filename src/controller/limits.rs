@@ -93,17 +93,12 @@ pub struct Allowed {
 }
 
 impl Allowed {
-    /// No motion at all in an interval of length `size` \[s\].
-    #[must_use]
-    pub fn nothing(size: f64) -> Self {
-        Self { size, least: [0.0; MAX_VARIABLES], most: [0.0; MAX_VARIABLES] }
-    }
-
-    /// For coordinates with these `limits`, from `position` and after the rates `before`.
+    /// For coordinates with these `limits`, in an interval of length `size` \[s\] from `position` and after the rates
+    /// `before`; no motion of others.
     #[must_use]
     #[inline(never)]
     pub fn new(limits: &[Limits], position: &[f64], before: &[f64], size: f64) -> Self {
-        let mut allowed = Self::nothing(size);
+        let mut allowed = Self { size, least: [0.0; MAX_VARIABLES], most: [0.0; MAX_VARIABLES] };
         for (i, (limits, (position, before))) in limits.iter().zip(position.iter().zip(before)).enumerate() {
             [allowed.least[i], allowed.most[i]] = limits.window(*position, *before, size);
         }

@@ -1,8 +1,21 @@
-//! Which methods suit which arms, and which of their settings go together.
+//! Which methods suit which arms and move what balances them, and which of their settings go together.
 
 use crate::error::{Error, Result};
 use crate::options::Choice;
 use crate::parameters::{Balance, Hold, Parameters, PathAxes, Resolution, Structure};
+
+impl Balance {
+    /// The resolution that moves it: a counterweight by its own law, a balance element together with the arm. With all
+    /// others it holds still.
+    #[must_use]
+    pub fn moved_by(self) -> Option<Resolution> {
+        match self {
+            Self::None => None,
+            Self::Counterweight => Some(Resolution::LeastSquares),
+            Self::Element => Some(Resolution::AccelerationLevel),
+        }
+    }
+}
 
 /// Whether the method suits the arm, and its parts each other.
 ///

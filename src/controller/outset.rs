@@ -2,14 +2,14 @@
 
 use nalgebra::SVector;
 
-use super::limits::Allowed;
 use super::prediction::Prediction;
-use super::resolution::Resolver;
+use super::resolution::{Interval, Problem, Resolved, Resolver};
 use super::response::Response;
 use crate::bytes::{Memory, Tape};
-use crate::dynamics::{Dynamics, Motion, Node, State};
+use crate::dynamics::{Dynamics, Motion, Node, Situation, State};
+use crate::momentum::Twist;
 use crate::parameters::Hold;
-use crate::planar::Turn;
+use crate::planar::{Turn, Vec2};
 use crate::qp::{Place, Places};
 
 /// The laws, the method and the present.
@@ -29,18 +29,46 @@ pub(super) struct Outset<const N: usize> {
 }
 
 impl<const N: usize> Outset<N> {
-    /// What the limits allow in an interval of length `horizon` that begins now.
-    pub fn allowed(&self, horizon: f64) -> Allowed {
-        self.resolver.allowed(&self.dynamics.vehicle, &self.now.situation, &self.motion.rate, horizon)
-    }
-
     /// How the system answers to the rates that the resolution may use, where the arm is at `node` and turned by
     /// `turn`, with the momentum of `state`.
     pub fn response(&self, node: &Node<N>, turn: Turn, state: &State<N>) -> Response<N> {
-        let vehicle = &self.dynamics.vehicle;
         let response = Response::new(&self.dynamics, node, turn, state.momentum_in(turn));
-        let held = vehicle.balancer.is_some() && !self.resolver.moves_balancer(vehicle);
-        if held { response.holding(N - 1) } else { response }
+        if self.resolver.holds_balancer { response.holding(N - 1) } else { response }
+    }
+
+    /// The rates that the method chooses for an interval of length `horizon` that begins now; `guess`: which of them
+    /// will probably be at their limits.
+    pub fn solve(&self, problem: &Problem<N>, horizon: f64, guess: &Places) -> Resolved<N> {
+        let interval = Interval { beginning: &self.now.situation, before: &self.motion.rate, size: horizon, guess };
+        self.resolver.solve(&self.dynamics.vehicle, &interval, problem)
+    }
+
+    /// From the present rates to the rates `last`, linearly.
+    pub fn accelerating_to(&self, last: &SVector<f64, N>, horizon: f64) -> Motion<N> {
+        let first = self.resolver.within_limits(self.motion.rate);
+        Motion { rate: first, slope: (last - first) / horizon }
+    }
+
+    /// Velocity of the end effector in the `situation`, where the base moves with `base` (axes of the UAV frame);
+    /// inertial frame \[m/s\].
+    pub fn end_effector_velocity(&self, Situation { node, turn, .. }: &Situation<N>, base: Twist) -> Vec2 {
+        self.dynamics.velocity_at(node, *turn, node.posture.end_effector, base)
+    }
+
+    /// Brings `end`, which has begun an explicit step in `here`, to its end at the rates `rate`, to which the system
+    /// answers with `response`, over the way `way` of the coordinates; the step takes `size` from time `t`.
+    pub fn end_explicit(
+        &self,
+        here: &Situation<N>,
+        response: &Response<N>,
+        rate: &SVector<f64, N>,
+        way: &SVector<f64, N>,
+        [t, size]: [f64; 2],
+        end: &mut Prediction<N>,
+    ) {
+        let base = response.base_velocity(rate);
+        self.dynamics.end_explicit(here, base, rate, way, [t, size], &mut end.situation);
+        end.carried = response.carried_momentum(rate);
     }
 }
 

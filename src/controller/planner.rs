@@ -13,7 +13,7 @@ use super::resolution::Resolver;
 use super::{Inputs, Outputs, Planner, Rates, Status};
 use crate::autopilot::AutopilotMode;
 use crate::bytes::{Memory, Tape};
-use crate::dynamics::{Dynamics, Load, Motion, Situation};
+use crate::dynamics::{Dynamics, Load, Motion};
 use crate::error::{Error, Result};
 use crate::parameters::{Discretization, Hold, Parameters, Structure};
 use crate::planar::Vec2;
@@ -60,30 +60,11 @@ pub struct Controller<const N: usize> {
 }
 
 impl<const N: usize> Controller<N> {
-    /// At the start, with the first interval planned and the outputs written.
-    ///
-    /// # Errors
-    /// If the parameters do not go together.
-    pub fn new(structure: Structure, parameters: &Parameters, outputs: &mut Outputs) -> Result<Self> {
-        let mut controller = Self::without_plan(structure, parameters)?;
-        // Measurements and external references act from the first step on.
-        let here = Inputs { position: controller.origin, ..Inputs::default() };
-        *outputs = Outputs::default();
-        controller.grasp_in_time(0.0);
-        // How long the host's steps are is not known yet: a ramp might be held far beyond its end.
-        let hold = std::mem::replace(&mut controller.outset.hold, Hold::ZeroOrder);
-        let wanted = controller.target(0.0, 0.0, &here);
-        controller.plan(0.0, &wanted, &here, outputs)?;
-        controller.outset.hold = hold;
-        controller.write_prediction(&wanted, outputs);
-        Ok(controller)
-    }
-
     /// At the start, with nothing planned.
     ///
     /// # Errors
     /// If the parameters do not go together.
-    pub fn without_plan(structure: Structure, parameters: &Parameters) -> Result<Self> {
+    pub fn new(structure: Structure, parameters: &Parameters) -> Result<Self> {
         let ik = &parameters.ik;
         let mut dynamics = Dynamics::new(structure, parameters, ik.base_model)?;
         // Of an autopilot outside, the pid law with the same gains is the best guess.
@@ -94,7 +75,7 @@ impl<const N: usize> Controller<N> {
         let origin = now.end_effector();
         Ok(Self {
             outset: Outset {
-                resolver: Resolver::new(parameters, structure.links, dynamics.vehicle.reach()),
+                resolver: Resolver::new(structure, parameters, dynamics.vehicle.reach()),
                 hold: ik.hold,
                 motion: Motion::constant(SVector::zeros()),
                 before: [SVector::zeros(); 3],
@@ -122,13 +103,6 @@ impl<const N: usize> Controller<N> {
         if t >= self.grasp_time - SAME_TIME && !now.situation.state.held {
             dynamics.grasp(&mut now.situation);
         }
-    }
-
-    /// How the end effector moves, just before any jump of the rates now.
-    fn end_effector_velocity(&self) -> Vec2 {
-        let Outset { dynamics, now, .. } = &self.outset;
-        let Situation { turn, node, .. } = &now.situation;
-        dynamics.velocity_at(node, *turn, node.posture.end_effector, now.situation.base())
     }
 
     /// Plans the interval from time `t` on, where the reference is at `wanted`.
@@ -170,11 +144,7 @@ impl<const N: usize> Controller<N> {
             velocity: target.velocity + (left_over + unforeseen) / horizon,
             ..*target
         };
-        let mut plan = if outset.resolver.accelerates() {
-            outset.accelerate_exact(t, horizon, nearer.velocity, end)?
-        } else {
-            outset.plan_exact(t, horizon, &nearer, end)?
-        };
+        let mut plan = outset.plan_exact(t, horizon, &nearer, end)?;
         let missing = followed(target.displacement - end.end_effector());
         plan.velocity_residual = missing.norm() / horizon;
         let shortened = followed(now - here) - (left_over + unforeseen);
@@ -268,6 +238,20 @@ impl<const N: usize> Memory for Controller<N> {
 }
 
 impl<const N: usize> Planner for Controller<N> {
+    fn begin(&mut self, outputs: &mut Outputs) -> Result<()> {
+        // Measurements and external references act from the first step on.
+        let here = Inputs { position: self.origin, ..Inputs::default() };
+        *outputs = Outputs::default();
+        self.grasp_in_time(0.0);
+        // How long the host's steps are is not known yet: a ramp might be held far beyond its end.
+        let hold = std::mem::replace(&mut self.outset.hold, Hold::ZeroOrder);
+        let wanted = self.target(0.0, 0.0, &here);
+        self.plan(0.0, &wanted, &here, outputs)?;
+        self.outset.hold = hold;
+        self.write_prediction(&wanted, outputs);
+        Ok(())
+    }
+
     fn step(
         &mut self,
         parameters: &Parameters,
@@ -291,14 +275,14 @@ impl<const N: usize> Planner for Controller<N> {
     }
 
     fn rates(&self, inputs: &Inputs, t: f64) -> Rates {
-        let Outset { dynamics, now, .. } = &self.outset;
+        let Outset { dynamics, now: Prediction { situation: now, .. }, .. } = &self.outset;
         let mut rates = Rates {
             reference_velocity: self.target(t, 0.0, inputs).acceleration,
-            predicted_end_effector: self.end_effector_velocity(),
-            predicted_velocity: dynamics.at_end(&now.situation, &self.slope_before, &Load::NONE).acceleration,
+            predicted_end_effector: self.outset.end_effector_velocity(now, now.base()),
+            predicted_velocity: dynamics.at_end(now, &self.slope_before, &Load::NONE).acceleration,
             ..Rates::default()
         };
-        rates.predicted_position[..N].copy_from_slice(now.situation.state.rate.as_slice());
+        rates.predicted_position[..N].copy_from_slice(now.state.rate.as_slice());
         rates
     }
 

@@ -28,11 +28,7 @@ impl<const N: usize> Prediction<N> {
     /// Its situation is the end of a step: the angular momentum follows from it.
     pub fn end_step(&mut self, dynamics: &Dynamics<N>) {
         let Situation { node, turn, state } = &self.situation;
-        self.carried = if dynamics.carried_load_is_a_balance() {
-            state.momentum.z - dynamics.vehicle.uav_inertia * state.velocity.z
-        } else {
-            dynamics.carried_momentum(node, *turn, self.situation.base(), node.arm).angular
-        };
+        self.carried = dynamics.carried_angular(node, *turn, self.situation.base(), node.arm, state.momentum.z);
     }
 
     /// Whether a controller can be here.

@@ -11,40 +11,38 @@ mod weights;
 
 use nalgebra::{SMatrix, SVector};
 
-pub use pseudo_inverse::{PATH_THRESHOLD, PseudoInverse, resolve};
+pub use pseudo_inverse::{PATH_THRESHOLD, PseudoInverse, Query, Task};
 
 use weights::Weights;
 
 use super::Status;
 use super::limits::{Allowed, Limits};
 use crate::dynamics::Situation;
-use crate::parameters::{MAX_COORDINATES, Parameters, PathAxes, Resolution};
+use crate::parameters::{MAX_COORDINATES, Parameters, PathAxes, Resolution, Structure};
 use crate::planar::{Vec2, vec2};
 use crate::qp::{self, Places};
-use crate::vehicle::{Balancer, Vehicle};
-
-/// One scalar equation `row . q_dot = value`.
-#[derive(Debug, Clone, Copy)]
-pub struct Task<const N: usize> {
-    /// Coefficients of the rates.
-    pub row: SVector<f64, N>,
-    /// Right-hand side.
-    pub value: f64,
-}
+use crate::vehicle::Vehicle;
 
 /// What is asked of the rates of one interval, linear in them.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Problem<'a, const N: usize> {
-    /// Where the interval begins.
-    pub beginning: &'a Situation<N>,
+pub(super) struct Problem<const N: usize> {
     /// Generalized Jacobian \[m\].
     pub path: SMatrix<f64, 2, N>,
     /// `path` * rate = `velocity` follows the path \[m/s\].
     pub velocity: Vec2,
     /// The rates that meet it exert no moment on the UAV in the mean: an impulse \[N m s\].
     pub moment: Task<N>,
-    /// What the limits allow.
-    pub allowed: &'a Allowed,
+}
+
+/// The interval whose rates are chosen.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Interval<'a, const N: usize> {
+    /// Where it begins.
+    pub beginning: &'a Situation<N>,
+    /// The rates before \[rad/s, m/s\].
+    pub before: &'a SVector<f64, N>,
+    /// Length \[s\].
+    pub size: f64,
     /// Which rates will probably be at their limits.
     pub guess: &'a Places,
 }
@@ -70,6 +68,8 @@ pub(super) struct Resolver {
     kind: Resolution,
     axes: PathAxes,
     links: usize,
+    /// Whether there is something that balances the arm, and the method does not move it.
+    pub holds_balancer: bool,
     /// Length of the stretched arm \[m\].
     pub reach: f64,
     weights: Weights,
@@ -81,17 +81,26 @@ pub(super) struct Resolver {
 }
 
 impl Resolver {
-    /// The method in `parameters` for an arm of `links` links, stretched as long as `reach` \[m\].
-    pub fn new(parameters: &Parameters, links: usize, reach: f64) -> Self {
+    /// The method in `parameters` for an arm that is stretched as long as `reach` \[m\].
+    ///
+    /// What balances the arm holds still with other methods than [`Balance::moved_by`]. Minimum norm would displace it
+    /// without regard to the moment of its weight; and since a counterweight sits above the UAV's centre of mass, its
+    /// acceleration turns the UAV the wrong way before its weight turns it the right way (thesis 3.8), so that rates
+    /// which cancel the moment at every instant would grow without bound.
+    ///
+    /// [`Balance::moved_by`]: crate::parameters::Balance::moved_by
+    pub fn new(structure: Structure, parameters: &Parameters, reach: f64) -> Self {
+        let kind = parameters.ik.resolution;
         let mut resolver = Self {
-            kind: parameters.ik.resolution,
+            kind,
             axes: parameters.ik.path_axes,
-            links,
+            links: structure.links,
+            holds_balancer: structure.balance.moved_by().is_some_and(|mover| mover != kind),
             reach,
             weights: Weights::EQUAL,
             gradient_gain: 0.0,
             rate_penalty: 0.0,
-            balancing_time: parameters.counterweight.time_constant,
+            balancing_time: 0.0,
             limits: [Limits::from(&parameters.counterweight); MAX_COORDINATES],
         };
         resolver.tune(parameters);
@@ -127,65 +136,51 @@ impl Resolver {
         }
     }
 
-    /// Whether what balances the arm is in motion: a counterweight by its own law, a balance element together
-    /// with the arm.
-    ///
-    /// Otherwise it holds still. Minimum norm would displace it without regard to the moment of its weight; and since
-    /// a counterweight sits above the UAV's centre of mass, its acceleration turns the UAV the wrong way before
-    /// its weight turns it the right way (thesis 3.8), so that rates which cancel the moment at every instant
-    /// would grow without bound.
-    pub fn moves_balancer<const N: usize>(&self, vehicle: &Vehicle<N>) -> bool {
-        match vehicle.balancer {
-            None => false,
-            Some(Balancer::Counterweight(_)) => self.kind == Resolution::LeastSquares,
-            Some(Balancer::Element(_)) => self.kind == Resolution::AccelerationLevel,
-        }
-    }
-
-    /// What the limits allow in an interval of length `size` \[s\] that starts in `now` after the rates `before`.
-    /// What balances the arm goes by a law of its own; its rate is fixed.
-    pub fn allowed<const N: usize>(
+    /// The rates that the method chooses.
+    pub fn solve<const N: usize>(
         &self,
         vehicle: &Vehicle<N>,
-        now: &Situation<N>,
-        before: &SVector<f64, N>,
-        size: f64,
-    ) -> Allowed {
-        if self.kind != Resolution::LeastSquares {
-            return Allowed::nothing(size);
-        }
-        let (position, before) = (now.state.position.as_slice(), before.as_slice());
+        interval: &Interval<'_, N>,
+        problem: &Problem<N>,
+    ) -> Resolved<N> {
+        let found = match self.kind {
+            // The smallest rates: right pseudo-inverse of the generalized Jacobian (thesis 1.8).
+            Resolution::MinimumNorm => self.along_path(problem, None),
+            Resolution::Gradient => {
+                self.nearest(problem, &gradient::preferred(vehicle, interval.beginning, self.gradient_gain))
+            }
+            // One more row below the generalized Jacobian (thesis 3.2, 3.3 and 3.6).
+            Resolution::ExtendedJacobian | Resolution::AccelerationLevel => {
+                self.along_path(problem, Some(problem.moment))
+            }
+            Resolution::LeastSquares => return self.least_squares(vehicle, interval, problem),
+        };
+        self.scaled(problem, &found)
+    }
+
+    /// The smallest rates that follow the path and, beside it, meet the `task`.
+    fn along_path<const N: usize>(&self, problem: &Problem<N>, task: Option<Task<N>>) -> PseudoInverse<N> {
+        let Problem { path, velocity, .. } = *problem;
+        self.weights.resolve(&Query { path, axes: self.axes, velocity, task }, self.reach)
+    }
+
+    /// The rates nearest to `preferred` ones that follow the path.
+    pub fn nearest<const N: usize>(&self, problem: &Problem<N>, preferred: &SVector<f64, N>) -> PseudoInverse<N> {
+        let velocity = problem.velocity - problem.path * preferred;
+        let added = self.along_path(&Problem { velocity, ..*problem }, None);
+        PseudoInverse { rate: preferred + added.rate, ..added }
+    }
+
+    /// What the limits allow. What balances the arm goes by a law of its own; its rate is fixed.
+    fn allowed<const N: usize>(&self, vehicle: &Vehicle<N>, interval: &Interval<'_, N>) -> Allowed {
+        let &Interval { beginning, before, size, .. } = interval;
+        let (position, before) = (beginning.state.position.as_slice(), before.as_slice());
         let mut allowed = Allowed::new(&self.limits[..self.links], position, before, size);
-        if let Some(target) = counterweight::balance(vehicle, now) {
+        if let Some(target) = counterweight::balance(vehicle, beginning) {
             let i = N - 1;
             allowed.fix(i, self.limits[i].approach(target, position[i], before[i], size, self.balancing_time));
         }
         allowed
-    }
-
-    /// The rates that the method chooses.
-    pub fn solve<const N: usize>(&self, vehicle: &Vehicle<N>, problem: &Problem<'_, N>) -> Resolved<N> {
-        let Problem { beginning, path, velocity, moment, .. } = problem;
-        let (preferred, task) = match self.kind {
-            // The smallest rates: right pseudo-inverse of the generalized Jacobian (thesis 1.8).
-            Resolution::MinimumNorm => (SVector::zeros(), None),
-            Resolution::Gradient => (gradient::preferred(vehicle, beginning, self.gradient_gain), None),
-            // One more row below the generalized Jacobian (thesis 3.2, 3.3 and 3.6).
-            Resolution::ExtendedJacobian | Resolution::AccelerationLevel => (SVector::zeros(), Some(moment)),
-            Resolution::LeastSquares => return self.least_squares(problem),
-        };
-        let mut found = self.weights.resolve(path, *velocity, &preferred, task, self.reach);
-        if self.axes == PathAxes::Horizontal {
-            // The other row is zero since nothing is asked for along it.
-            found.min_singular_value = path.row(0).norm();
-            found.path_damped = found.min_singular_value < PATH_THRESHOLD * self.reach;
-        }
-        self.scaled(problem, &found)
-    }
-
-    /// The rates nearest to `preferred` ones that follow the path.
-    pub fn nearest<const N: usize>(&self, problem: &Problem<'_, N>, preferred: &SVector<f64, N>) -> SVector<f64, N> {
-        self.weights.resolve(&problem.path, problem.velocity, preferred, None, self.reach).rate
     }
 
     /// Rates scaled down so that none exceeds its limit.

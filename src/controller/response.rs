@@ -39,21 +39,13 @@ impl<const N: usize> Response<N> {
         let own = |i: usize| {
             if i < vehicle.links { perp(tip - node.posture.joint[i]) } else { Vec2::zeros() }
         };
-        // Where the arm feels all that the base does, what the system has less what the UAV has; rates alone give the
-        // system none.
-        let all = dynamics.carried_load_is_a_balance();
-        let carried = |v: Twist, arm: Twist, system: f64| {
-            if all {
-                system - vehicle.uav_inertia * v.angular
-            } else {
-                dynamics.carried_momentum(node, turn, v, arm).angular
-            }
-        };
+        let carried = |v: Twist, arm: Twist, system: f64| dynamics.carried_angular(node, turn, v, arm, system);
         Self {
             base,
             base_free,
             jacobian: SMatrix::from_fn(|row, i| (at_tip(base[i]) + own(i))[row]),
             end_effector_free: at_tip(base_free),
+            // Rates alone give the system no momentum.
             carried: SVector::from_fn(|i, _| carried(base[i], matrix.columns[i], 0.0)),
             carried_free: carried(base_free, Twist::ZERO, momentum.angular),
         }
@@ -70,11 +62,6 @@ impl<const N: usize> Response<N> {
     /// Motion of the base at the rates `rate`, axes of the UAV frame.
     pub fn base_velocity(&self, rate: &SVector<f64, N>) -> Twist {
         self.base.iter().zip(rate.iter()).fold(self.base_free, |v, (reaction, rate)| v + *reaction * *rate)
-    }
-
-    /// Velocity of the end effector at the rates `rate`, axes of the UAV frame \[m/s\].
-    pub fn end_effector_velocity(&self, rate: &SVector<f64, N>) -> Vec2 {
-        self.jacobian * rate + self.end_effector_free
     }
 
     /// Angular momentum of what the UAV carries at the rates `rate` \[N m s\].

@@ -17,7 +17,7 @@ use super::law::Carrier;
 use super::{Dynamics, Load, Node};
 use crate::momentum::Twist;
 use crate::parameters::{BaseModel, MomentModel};
-use crate::planar::{Turn, cross, vec2};
+use crate::planar::{Turn, cross, perp, vec2};
 
 impl<const N: usize> Dynamics<N> {
     /// What the arm feels of the base's motion `v`; axes of the UAV frame, which is turned by `turn`.
@@ -30,26 +30,31 @@ impl<const N: usize> Dynamics<N> {
         }
     }
 
-    /// Momentum of all that the UAV carries, from what it feels of the base's motion `v` and from its own
-    /// motion `arm` relative to the base; linear in both.
-    #[inline]
-    #[must_use]
-    pub fn carried_momentum(&self, node: &Node<N>, turn: Turn, v: Twist, arm: Twist) -> Twist {
-        let v = self.felt(v, turn);
-        let uav = Twist { linear: v.linear * self.vehicle.uav_mass, angular: v.angular * self.vehicle.uav_inertia };
-        node.matrix.of_base(v) - uav + arm
-    }
-
     /// The right-hand side of the law above without the moment on the UAV \[N m\].
     pub(super) fn carried_load(&self, node: &Node<N>, carrier: &Carrier, load: &Load) -> f64 {
         let Carrier { turn, motion: v, support } = *carrier;
-        let momentum = self.carried_momentum(node, turn, v, node.arm);
-        self.carried_moment(turn, node, load, support) - cross(self.felt(v, turn).linear, momentum.linear)
+        let v = self.felt(v, turn);
+        // What moves along with the UAV has a momentum along v_0.
+        let across = node.arm.linear + perp(node.matrix.first) * v.angular;
+        self.carried_moment(turn, node, load, support) - cross(v.linear, across)
+    }
+
+    /// Angular momentum of all that the UAV carries, from the base's motion `v`, of which it feels what the model says,
+    /// from the momentum `arm` of the arm's own motion relative to the base, and from the angular momentum `system` of
+    /// the whole system; linear in all three \[N m s\].
+    #[inline]
+    #[must_use]
+    pub fn carried_angular(&self, node: &Node<N>, turn: Turn, v: Twist, arm: Twist, system: f64) -> f64 {
+        let uav = |v: Twist| self.vehicle.uav_inertia * v.angular;
+        if self.carried_load_is_a_balance() {
+            return system - uav(v);
+        }
+        let felt = self.felt(v, turn);
+        node.matrix.of_base(felt).angular - uav(felt) + arm.angular
     }
 
     /// Whether its integral follows from changes of momentum, because the UAV feels all that the arm does.
-    #[must_use]
-    pub fn carried_load_is_a_balance(&self) -> bool {
+    pub(super) fn carried_load_is_a_balance(&self) -> bool {
         self.base == BaseModel::Full && self.moment_model == MomentModel::FreeBase
     }
 }

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use super::reader::{DURATION, STEP};
 use super::{Scenario, default_parameters};
 use crate::parameters::Parameters;
 use crate::variables::Kind;
@@ -74,7 +75,7 @@ pub(super) fn based_on(scenario: &Scenario) -> String {
 
 /// Appends a change to a file that is based on a scenario.
 pub(super) fn change(text: &mut String, name: &str, value: &str) {
-    let table = if ["duration", "step"].contains(&name) { "" } else { "parameters." };
+    let table = if [DURATION.0, STEP.0].contains(&name) { "" } else { "parameters." };
     let value = match (value.parse::<f64>(), value) {
         (Ok(number), _) => format!("{number:?}"),
         (_, "true" | "false") => value.to_owned(),

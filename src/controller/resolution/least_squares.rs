@@ -10,11 +10,12 @@
 
 use nalgebra::SVector;
 
-use super::{Problem, Resolved, Resolver};
+use super::{Interval, Problem, Resolved, Resolver};
 use crate::controller::Status;
 use crate::controller::limits::Allowed;
 use crate::planar::Vec2;
 use crate::qp::{self, MAX_VARIABLES, Outcome, Place};
+use crate::vehicle::Vehicle;
 
 /// The ridge of the quadratic program, as a share of the squared moment per rate: it decides between rates
 /// that are equally good otherwise.
@@ -25,8 +26,14 @@ const NO_MOMENT: f64 = 1e-9;
 
 impl Resolver {
     /// The rates of the joints; that of what balances the arm is given (3.29).
-    pub(super) fn least_squares<const N: usize>(&self, problem: &Problem<'_, N>) -> Resolved<N> {
-        let &Problem { mut path, mut velocity, mut moment, allowed, .. } = problem;
+    pub(super) fn least_squares<const N: usize>(
+        &self,
+        vehicle: &Vehicle<N>,
+        interval: &Interval<'_, N>,
+        problem: &Problem<N>,
+    ) -> Resolved<N> {
+        let allowed = self.allowed(vehicle, interval);
+        let Problem { mut path, mut velocity, mut moment } = *problem;
         let mut rate = SVector::zeros();
         for i in self.links..N {
             rate[i] = allowed.least[i];
@@ -35,7 +42,7 @@ impl Resolver {
             path.column_mut(i).fill(0.0);
             moment.row[i] = 0.0;
         }
-        let wanted = self.weights.resolve(&path, velocity, &SVector::zeros(), Some(&moment), self.reach);
+        let wanted = self.along_path(&Problem { path, velocity, moment }, Some(moment));
         let mut resolved = Resolved {
             rate: rate + wanted.rate,
             status: wanted.status(),
@@ -50,8 +57,8 @@ impl Resolver {
 
         let mean = moment.row / allowed.size;
         let wanted_rate = &wanted.rate.as_slice()[..links];
-        let program = program(path.as_slice(), mean.as_slice(), wanted_rate, allowed, self.rate_penalty);
-        let found = qp::solve(&program, problem.guess);
+        let program = program(path.as_slice(), mean.as_slice(), wanted_rate, &allowed, self.rate_penalty);
+        let found = qp::solve(&program, interval.guess);
         rate.as_mut_slice()[..links].copy_from_slice(&found.x[..links]);
         resolved.moment = problem.moment.value - problem.moment.row.dot(&rate);
         let held_back = found.places[..links].iter().any(|place| matches!(place, Place::Lower | Place::Upper));

@@ -8,9 +8,8 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::Task;
 use crate::controller::Status;
-use crate::parameters::MAX_COORDINATES;
+use crate::parameters::{MAX_COORDINATES, PathAxes};
 use crate::planar::{Vec2, cross, perp, vec2};
 
 /// Singular values of the path below this share of the arm's reach are damped.
@@ -18,6 +17,28 @@ pub const PATH_THRESHOLD: f64 = 2e-2;
 
 /// The second task is damped where less than this share of its row is left beside the path.
 const TASK_THRESHOLD: f64 = 1e-2;
+
+/// One scalar equation `row . q_dot = value`.
+#[derive(Debug, Clone, Copy)]
+pub struct Task<const N: usize> {
+    /// Coefficients of the rates.
+    pub row: SVector<f64, N>,
+    /// Right-hand side.
+    pub value: f64,
+}
+
+/// What is asked of the rates: `path` * rate = `velocity` and, if possible beside it, the `task`.
+#[derive(Debug, Clone, Copy)]
+pub struct Query<const N: usize> {
+    /// Velocity of the end effector per rate \[m\].
+    pub path: SMatrix<f64, 2, N>,
+    /// The axes that count; the row of the other one is zero.
+    pub axes: PathAxes,
+    /// Wanted velocity \[m/s\].
+    pub velocity: Vec2,
+    /// What else is asked for.
+    pub task: Option<Task<N>>,
+}
 
 /// Rates with what had to be given up for them.
 #[derive(Debug, Clone, Copy)]
@@ -44,26 +65,11 @@ impl<const N: usize> PseudoInverse<N> {
 }
 
 impl PseudoInverse<MAX_COORDINATES> {
-    /// Of the first `N` coordinates, where the others have been added by [`padded`].
+    /// Of the first `N` coordinates, where the others have been added by [`Query::padded`].
     pub(super) fn of_the_first<const N: usize>(&self) -> PseudoInverse<N> {
         let Self { rate, min_singular_value, path_damped, task_damped } = *self;
-        PseudoInverse { rate: SVector::from_fn(|i, _| rate[i]), min_singular_value, path_damped, task_damped }
+        PseudoInverse { rate: rate.fixed_resize::<N, 1>(0.0), min_singular_value, path_damped, task_damped }
     }
-}
-
-/// The rows of `path` with more coordinates, which move nothing.
-pub(super) fn padded<const N: usize>(path: &SMatrix<f64, 2, N>) -> SMatrix<f64, 2, MAX_COORDINATES> {
-    SMatrix::from_fn(|row, i| if i < N { path[(row, i)] } else { 0.0 })
-}
-
-/// Rates, or a row, with more coordinates.
-pub(super) fn padded_vector<const N: usize>(vector: &SVector<f64, N>) -> SVector<f64, MAX_COORDINATES> {
-    SVector::from_fn(|i, _| if i < N { vector[i] } else { 0.0 })
-}
-
-/// A task with more coordinates.
-pub(super) fn padded_task<const N: usize>(task: &Task<N>) -> Task<MAX_COORDINATES> {
-    Task { row: padded_vector(&task.row), value: task.value }
 }
 
 /// The Gram matrix J J^T of a path: its entries, its determinant and its eigenvalues.
@@ -78,9 +84,14 @@ pub(super) struct Gram {
 }
 
 impl Gram {
-    pub fn new<const N: usize>(path: &SMatrix<f64, 2, N>) -> Self {
+    pub fn new<const N: usize>(path: &SMatrix<f64, 2, N>, axes: PathAxes) -> Self {
         let (x, y) = (path.row(0), path.row(1));
-        let (xx, xy, yy) = (x.norm_squared(), x.dot(&y), y.norm_squared());
+        let xx = x.norm_squared();
+        if axes == PathAxes::Horizontal {
+            // As if something apart moved the end effector as easily along the axis that does not count.
+            return Self { xx, xy: 0.0, yy: xx, determinant: xx * xx, largest: xx, smallest: xx };
+        }
+        let (xy, yy) = (x.dot(&y), y.norm_squared());
         // The determinant as a sum of squares (Cauchy-Binet) does not cancel.
         let mut determinant = 0.0;
         for i in 0..N {
@@ -101,91 +112,81 @@ impl Gram {
     }
 }
 
-/// The rates nearest to the `preferred` ones with `path` * rate = `velocity` and, if possible beside it, with
-/// `task`.
-///
-/// `path`: 2 x N \[m\], `velocity`: \[m/s\], `reach`: length of the stretched arm \[m\].
-#[must_use]
-pub fn resolve<const N: usize>(
-    path: &SMatrix<f64, 2, N>,
-    velocity: Vec2,
-    preferred: &SVector<f64, N>,
-    task: Option<&Task<N>>,
-    reach: f64,
-) -> PseudoInverse<N> {
-    let gram = Gram::new(path);
-    let threshold = PATH_THRESHOLD * reach;
-    // Where nothing is damped, without directions and their square roots: a third of the time.
-    if gram.smallest >= threshold * threshold
-        && let Some(rate) = undamped(path, &gram, velocity, preferred, task)
-    {
-        let min_singular_value = gram.smallest.sqrt();
-        return PseudoInverse { rate, min_singular_value, path_damped: false, task_damped: false };
-    }
-    let task = task.map(padded_task);
-    damped(&padded(path), velocity, &padded_vector(preferred), task.as_ref(), reach).of_the_first()
-}
-
-/// [`resolve`] far from singular configurations; none if that of the task is not far.
-#[inline]
-fn undamped<const N: usize>(
-    path: &SMatrix<f64, 2, N>,
-    gram: &Gram,
-    velocity: Vec2,
-    preferred: &SVector<f64, N>,
-    task: Option<&Task<N>>,
-) -> Option<SVector<f64, N>> {
-    let &Gram { xx, xy, yy, determinant, .. } = gram;
-    let inverse = 1.0 / determinant;
-    // J^T (J J^T)^-1 w.
-    let lift = |w: Vec2| path.transpose() * (vec2(yy * w.x - xy * w.y, xx * w.y - xy * w.x) * inverse);
-    let mut rate = preferred + lift(velocity - path * preferred);
-    if let Some(task) = task {
-        let free = task.row - lift(path * task.row);
-        let left = free.norm_squared();
-        if left < TASK_THRESHOLD * TASK_THRESHOLD * task.row.norm_squared() || left < f64::MIN_POSITIVE {
-            return None;
+impl<const N: usize> Query<N> {
+    /// The smallest rates that meet it, for an arm that is stretched as long as `reach` \[m\].
+    #[must_use]
+    pub fn resolve(&self, reach: f64) -> PseudoInverse<N> {
+        let gram = Gram::new(&self.path, self.axes);
+        let threshold = PATH_THRESHOLD * reach;
+        // Where nothing is damped, without directions and their square roots: a third of the time.
+        if gram.smallest >= threshold * threshold
+            && let Some(rate) = self.undamped(&gram)
+        {
+            let min_singular_value = gram.smallest.sqrt();
+            return PseudoInverse { rate, min_singular_value, path_damped: false, task_damped: false };
         }
-        rate += free * ((task.value - task.row.dot(&rate)) / left);
+        self.padded().damped(&gram, threshold).of_the_first()
     }
-    Some(rate)
+
+    /// The same with more coordinates, which move nothing.
+    pub(super) fn padded(&self) -> Query<MAX_COORDINATES> {
+        let Self { path, axes, velocity, task } = self;
+        let task = task.map(|Task { row, value }| Task { row: row.fixed_resize::<MAX_COORDINATES, 1>(0.0), value });
+        Query { path: path.fixed_resize::<2, MAX_COORDINATES>(0.0), axes: *axes, velocity: *velocity, task }
+    }
+
+    /// [`Query::resolve`] far from singular configurations; none if that of the task is not far.
+    #[inline]
+    fn undamped(&self, gram: &Gram) -> Option<SVector<f64, N>> {
+        let &Gram { xx, xy, yy, determinant, .. } = gram;
+        let Self { path, velocity, task, .. } = self;
+        let inverse = 1.0 / determinant;
+        // J^T (J J^T)^-1 w.
+        let lift = |w: Vec2| path.transpose() * (vec2(yy * w.x - xy * w.y, xx * w.y - xy * w.x) * inverse);
+        let mut rate = lift(*velocity);
+        if let Some(task) = task {
+            let free = task.row - lift(path * task.row);
+            let left = free.norm_squared();
+            if left < TASK_THRESHOLD * TASK_THRESHOLD * task.row.norm_squared() || left < f64::MIN_POSITIVE {
+                return None;
+            }
+            rate += free * ((task.value - task.row.dot(&rate)) / left);
+        }
+        Some(rate)
+    }
 }
 
-/// [`resolve`] wherever the arm is, for the largest number of coordinates: the library holds one copy.
-#[cold]
-#[inline(never)]
-fn damped(
-    path: &SMatrix<f64, 2, MAX_COORDINATES>,
-    velocity: Vec2,
-    preferred: &SVector<f64, MAX_COORDINATES>,
-    task: Option<&Task<MAX_COORDINATES>>,
-    reach: f64,
-) -> PseudoInverse<MAX_COORDINATES> {
-    // The directions in which the arm moves easily and hardly: each is damped on its own.
-    let gram = Gram::new(path);
-    let strong = gram.strong();
-    let weak = perp(strong);
-    let threshold = PATH_THRESHOLD * reach;
-    let min_singular_value = gram.smallest.sqrt();
-    let damping_weak = damping(min_singular_value, threshold);
-    let (gain_strong, gain_weak) =
-        (1.0 / (gram.largest + damping(gram.largest.sqrt(), threshold)), 1.0 / (gram.smallest + damping_weak));
-    // J^T (J J^T + damping)^-1 w.
-    let lift =
-        |w: Vec2| path.transpose() * (strong * (strong.dot(&w) * gain_strong) + weak * (weak.dot(&w) * gain_weak));
+impl Query<MAX_COORDINATES> {
+    /// [`Query::resolve`] wherever the arm is, with singular values below `threshold` \[m\] damped. For the largest
+    /// number of coordinates: the library holds one copy.
+    #[cold]
+    #[inline(never)]
+    fn damped(&self, gram: &Gram, threshold: f64) -> PseudoInverse<MAX_COORDINATES> {
+        let Self { path, velocity, task, .. } = self;
+        // The directions in which the arm moves easily and hardly: each is damped on its own.
+        let strong = gram.strong();
+        let weak = perp(strong);
+        let min_singular_value = gram.smallest.sqrt();
+        let damping_weak = damping(min_singular_value, threshold);
+        let (gain_strong, gain_weak) =
+            (1.0 / (gram.largest + damping(gram.largest.sqrt(), threshold)), 1.0 / (gram.smallest + damping_weak));
+        // J^T (J J^T + damping)^-1 w.
+        let lift =
+            |w: Vec2| path.transpose() * (strong * (strong.dot(&w) * gain_strong) + weak * (weak.dot(&w) * gain_weak));
 
-    let mut rate = preferred + lift(velocity - path * preferred);
-    let mut task_damped = false;
-    if let Some(task) = task {
-        let free = task.row - lift(path * task.row);
-        let size = task.row.norm();
-        let share = free.norm() / size.max(f64::MIN_POSITIVE);
-        let damping = damping(share, TASK_THRESHOLD) * size * size;
-        task_damped = damping > 0.0;
-        let missing = task.value - task.row.dot(&rate);
-        rate += free * (missing / (free.norm_squared() + damping).max(f64::MIN_POSITIVE));
+        let mut rate = lift(*velocity);
+        let mut task_damped = false;
+        if let Some(task) = task {
+            let free = task.row - lift(path * task.row);
+            let size = task.row.norm();
+            let share = free.norm() / size.max(f64::MIN_POSITIVE);
+            let damping = damping(share, TASK_THRESHOLD) * size * size;
+            task_damped = damping > 0.0;
+            let missing = task.value - task.row.dot(&rate);
+            rate += free * (missing / (free.norm_squared() + damping).max(f64::MIN_POSITIVE));
+        }
+        PseudoInverse { rate, min_singular_value, path_damped: damping_weak > 0.0, task_damped }
     }
-    PseudoInverse { rate, min_singular_value, path_damped: damping_weak > 0.0, task_damped }
 }
 
 /// Square of the damping factor: grows smoothly from 0 at the threshold to its square at a singularity.

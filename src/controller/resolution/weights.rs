@@ -1,12 +1,10 @@
 //! Joints that are to move less than others: the norm of the rates that is minimised is weighted
 //! (thesis 1.8 and 3.3).
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::SVector;
 
-use super::pseudo_inverse::{Gram, padded, padded_task, padded_vector, resolve};
-use super::{PseudoInverse, Task};
+use super::pseudo_inverse::{Gram, PseudoInverse, Query};
 use crate::parameters::{Joint, MAX_COORDINATES};
-use crate::planar::Vec2;
 
 /// The weights of the joints' rates; what balances the arm has none.
 #[derive(Debug, Clone, Copy)]
@@ -25,20 +23,12 @@ impl Weights {
             if joints.iter().all(|joint| joint.weight == joints[0].weight) { None } else { Some(scale(joints)) };
     }
 
-    /// [`resolve`] in the weighted norm.
-    pub fn resolve<const N: usize>(
-        &self,
-        path: &SMatrix<f64, 2, N>,
-        velocity: Vec2,
-        preferred: &SVector<f64, N>,
-        task: Option<&Task<N>>,
-        reach: f64,
-    ) -> PseudoInverse<N> {
-        let Some(scale) = &self.scale else {
-            return resolve(path, velocity, preferred, task, reach);
-        };
-        let task = task.map(padded_task);
-        weighted(scale, &padded(path), velocity, &padded_vector(preferred), task.as_ref(), reach).of_the_first()
+    /// [`Query::resolve`] in the weighted norm.
+    pub fn resolve<const N: usize>(&self, query: &Query<N>, reach: f64) -> PseudoInverse<N> {
+        match &self.scale {
+            None => query.resolve(reach),
+            Some(scale) => weighted(scale, query.padded(), reach).of_the_first(),
+        }
     }
 }
 
@@ -54,21 +44,16 @@ fn scale(joints: &[Joint]) -> SVector<f64, MAX_COORDINATES> {
 #[inline(never)]
 fn weighted(
     scale: &SVector<f64, MAX_COORDINATES>,
-    path: &SMatrix<f64, 2, MAX_COORDINATES>,
-    velocity: Vec2,
-    preferred: &SVector<f64, MAX_COORDINATES>,
-    task: Option<&Task<MAX_COORDINATES>>,
+    mut query: Query<MAX_COORDINATES>,
     reach: f64,
 ) -> PseudoInverse<MAX_COORDINATES> {
-    let mut scaled = *path;
-    for (mut column, scale) in scaled.column_iter_mut().zip(scale.iter()) {
+    let min_singular_value = Gram::new(&query.path, query.axes).smallest.sqrt();
+    for (mut column, scale) in query.path.column_iter_mut().zip(scale) {
         column *= *scale;
     }
-    let task = task.map(|task| Task { row: task.row.component_mul(scale), ..*task });
-    let found = resolve(&scaled, velocity, &preferred.component_div(scale), task.as_ref(), reach);
-    PseudoInverse {
-        rate: found.rate.component_mul(scale),
-        min_singular_value: Gram::new(path).smallest.sqrt(),
-        ..found
+    if let Some(task) = &mut query.task {
+        task.row.component_mul_assign(scale);
     }
+    let found = query.resolve(reach);
+    PseudoInverse { rate: found.rate.component_mul(scale), min_singular_value, ..found }
 }
