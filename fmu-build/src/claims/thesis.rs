@@ -120,7 +120,7 @@ pub const REDUNDANCY: &[Claim] = &[
     ratio("3.2c", Quantity::Moment, "3.2b", "ten times", order(10.0)),
     ratio("3.2c", Quantity::WayX, "3.2b", "ten times", order(10.0)),
     ratio("3.2c", Quantity::WayY, "3.2b", "ten times", order(10.0))
-        .but(BOTH, "grows with the accelerations of the path: 3 times with sides of 1.5 s instead of 3 s"),
+        .but(BOTH, "grows with the accelerations of the path: 3 times that of 3.2b as it is, with sides of 1.5 s instead of 3 s"),
     claim("3.2c", Quantity::TrackingError, "below 0.5 mm", [0.0, 0.5 * MM]),
     claim("3.2d", Quantity::Moment, "0.2 N m after a peak", [0.1, 2.0]),
     claim("3.2d", Quantity::Sinking, "6 mm (misprinted 6 cm)", [5.5 * MM, 7.0 * MM]),
