@@ -5,9 +5,10 @@
 //! [`plant`](interface::plant) is the multibody system itself.
 //!
 //! Modules know only what stands above them in this list:
-//! [`options`], [`bytes`], [`unit`], [`variables`] (named data), [`qp`], [`planar`], [`parameters`], [`vehicle`],
-//! [`kinematics`], [`momentum`], [`dynamics`], then [`plant`] and [`controller`], and at the end
-//! [`fmi2`] and [`interface`], which make units of them. Named runs (`scenarios`) stand beside the units.
+//! [`options`], [`bytes`], [`unit`], [`variables`] (named data), [`qp`], [`planar`], [`reference`], [`autopilot`],
+//! [`parameters`], [`defaults`], [`vehicle`], [`kinematics`], [`momentum`], [`dynamics`], then [`plant`] and
+//! [`controller`], and at the end [`fmi2`] and [`interface`], which make units of them. Named runs (`scenarios`) stand
+//! beside the units.
 
 pub mod autopilot;
 pub mod bytes;
