@@ -56,6 +56,7 @@ pub fn play(unit: &Unit, seed: u64) -> Result<Fate, String> {
             return Err("after a forged state the instance does not go on from a true one as before".to_owned());
         }
     }
+    fate.points = guest.points.get();
     // SAFETY: a state of this instance.
     guest.must("fmi2FreeFMUstate", unsafe { (guest.functions.free_state)(guest.component, &raw mut honest) })?;
     Ok(fate)
@@ -83,7 +84,7 @@ fn somewhere(guest: &Guest<'_>, rng: &mut Rng) -> Result<(), String> {
 fn change(guest: &Guest<'_>, rng: &mut Rng, count: usize) -> Result<(), String> {
     let (functions, component) = (guest.functions, guest.component);
     for _ in 0..count {
-        let variable = &guest.unit.variables[rng.usize(0..guest.unit.variables.len())];
+        let variable = &guest.variables[rng.usize(0..guest.variables.len())];
         let (place, number, value) = (&raw const variable.reference, rng.i32(0..5), rng.f64());
         // SAFETY: all lists have one element.
         unsafe {

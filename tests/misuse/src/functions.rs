@@ -12,6 +12,11 @@ pub type State = *mut c_void;
 /// `fmi2String`.
 pub type Text = *const c_char;
 
+/// `fmi2OK`.
+pub const OK: c_int = 0;
+/// `fmi2Error`.
+pub const ERROR: c_int = 3;
+
 /// `fmi2CallbackFunctions`. The logger is variadic in C; see [`crate::host`].
 #[repr(C)]
 pub struct Callbacks {

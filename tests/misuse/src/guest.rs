@@ -1,31 +1,41 @@
 //! An instance of which nothing is asked but good manners: fmi2OK, or fmi2Error with a message that names the call and
 //! tells of no panic; and outputs that are finite.
 
+use std::cell::Cell;
 use std::ffi::{CStr, c_int};
 
-use crate::functions::{Component, Functions};
-use crate::host;
-use crate::player::{ERROR, OK};
-use crate::unit::Unit;
+use crate::functions::{Component, ERROR, Functions, OK};
+use crate::outputs::Points;
+use crate::unit::{Unit, Variable};
+use crate::{host, outputs};
 
 /// What became of inputs that somebody made up.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Fate {
     pub tried: u64,
     pub accepted: u64,
+    /// After those that were accepted.
+    pub points: Points,
 }
 
 impl Fate {
     /// Of both.
     pub fn and(self, other: Self) -> Self {
-        Self { tried: self.tried + other.tried, accepted: self.accepted + other.accepted }
+        Self {
+            tried: self.tried + other.tried,
+            accepted: self.accepted + other.accepted,
+            points: self.points.and(other.points),
+        }
     }
 }
 
 pub struct Guest<'a> {
-    pub unit: &'a Unit,
+    /// As far as they are known.
+    pub variables: &'a [Variable],
     pub functions: &'a Functions,
     pub component: Component,
+    /// After all steps so far.
+    pub points: Cell<Points>,
 }
 
 impl Drop for Guest<'_> {
@@ -42,16 +52,17 @@ impl<'a> Guest<'a> {
     /// # Errors
     /// If there is none.
     pub fn new(unit: &'a Unit) -> Result<Self, String> {
-        Self::come(unit, &unit.guid, c"file:///nowhere").ok_or_else(|| format!("no instance: {}", said()))
+        Self::come(unit, &unit.variables, &unit.guid, c"file:///nowhere")
+            .ok_or_else(|| format!("no instance: {}", host::said()))
     }
 
-    /// A new instance of the unit with this GUID, unless that is refused.
-    pub fn come(unit: &'a Unit, guid: &CStr, resources: &CStr) -> Option<Self> {
+    /// A new instance of the unit with this GUID, and then these variables, unless that is refused.
+    pub fn come(unit: &'a Unit, variables: &'a [Variable], guid: &CStr, resources: &CStr) -> Option<Self> {
         let (functions, callbacks) = (&unit.functions, host::callbacks());
         let (name, guid, resources) = (c"guest".as_ptr(), guid.as_ptr(), resources.as_ptr());
         // SAFETY: all texts end with a zero, the callbacks live as long as the call.
         let component = unsafe { (functions.instantiate)(name, 1, guid, resources, &raw const callbacks, 0, 0) };
-        (!component.is_null()).then_some(Self { unit, functions, component })
+        (!component.is_null()).then(|| Self { variables, functions, component, points: Cell::default() })
     }
 
     /// Whether a call went well; if not, it says why.
@@ -61,8 +72,8 @@ impl<'a> Guest<'a> {
     pub fn well(&self, name: &str, status: c_int) -> Result<bool, String> {
         match status {
             OK => Ok(true),
-            ERROR if said().contains(name) && !said().contains("internal error") => Ok(false),
-            _ => Err(format!("{name}: status {status}, {}", said())),
+            ERROR if host::said().contains(name) && !host::panicked() => Ok(false),
+            _ => Err(format!("{name}: status {status}, {}", host::said())),
         }
     }
 
@@ -71,7 +82,7 @@ impl<'a> Guest<'a> {
     /// # Errors
     /// If it did not go well.
     pub fn must(&self, name: &str, status: c_int) -> Result<(), String> {
-        if self.well(name, status)? { Ok(()) } else { Err(format!("{name} is refused: {}", said())) }
+        if self.well(name, status)? { Ok(()) } else { Err(format!("{name} is refused: {}", host::said())) }
     }
 
     /// Through initialization, as far as that is possible; whether it is.
@@ -90,40 +101,37 @@ impl<'a> Guest<'a> {
     /// A step; whether it was done.
     ///
     /// # Errors
-    /// Like [`Guest::well`]; if an output is then not finite.
+    /// Like [`Guest::well`] and [`outputs::read`].
     pub fn step(&self, from: f64, size: f64) -> Result<bool, String> {
         let done = self.well("fmi2DoStep", unsafe { (self.functions.do_step)(self.component, from, size, 1) })?;
         if done {
-            self.finite(&format!("after the step from {from} by {size}"))?;
+            let points = outputs::read(self.functions, self.component, self.reals(), true, |_| ())
+                .map_err(|message| format!("{message} after the step from {from} by {size}"))?;
+            self.points.set(self.points.get().and(points));
         }
         Ok(done)
     }
 
     /// Where the instance says it is.
     pub fn time(&self) -> f64 {
-        let (time, mut value) = (self.unit.reference("time").unwrap_or_default(), f64::NAN);
-        unsafe { (self.functions.get_real)(self.component, &raw const time, 1, &raw mut value) };
+        // The independent variable is the first.
+        let mut value = f64::NAN;
+        unsafe { (self.functions.get_real)(self.component, &0, 1, &raw mut value) };
         value
     }
 
-    /// Checks that every real variable, as long as they can be read, is a number.
+    /// Checks that every real variable is a number, as long as they can be read: outputs have no values while parameters
+    /// do not go together, or after a failure.
     ///
     /// # Errors
     /// If one is not.
     pub fn finite(&self, when: &str) -> Result<(), String> {
-        for variable in self.unit.variables.iter().filter(|variable| variable.real) {
-            let mut value = f64::NAN;
-            let get = self.functions.get_real;
-            let status = unsafe { get(self.component, &raw const variable.reference, 1, &raw mut value) };
-            if !self.well("fmi2GetReal", status)? {
-                // Before the simulation, parameters do not go together; in it, the instance has failed.
-                return Ok(());
-            }
-            if !value.is_finite() {
-                return Err(format!("{} is {value} {when}", variable.name));
-            }
-        }
-        Ok(())
+        let status = outputs::values(self.functions, self.component, self.reals(), |_| ());
+        self.well("fmi2GetReal", status.map_err(|message| format!("{message} {when}"))?).map(drop)
+    }
+
+    fn reals(&self) -> impl Iterator<Item = &Variable> + Clone {
+        self.variables.iter().filter(|variable| variable.real)
     }
 
     /// The bits of all real variables; of those that cannot be read, of what was there before.
@@ -133,11 +141,6 @@ impl<'a> Guest<'a> {
             unsafe { (self.functions.get_real)(self.component, &raw const reference, 1, &raw mut value) };
             value.to_bits()
         };
-        self.unit.variables.iter().map(|variable| read(variable.reference)).collect()
+        self.variables.iter().map(|variable| read(variable.reference)).collect()
     }
-}
-
-/// The last message.
-pub fn said() -> String {
-    host::last(|text| String::from_utf8_lossy(text).into_owned())
 }

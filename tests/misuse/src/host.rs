@@ -42,7 +42,17 @@ pub fn messages() -> u64 {
     SAID.with_borrow(|(count, _)| *count)
 }
 
-/// Calls `look` with the last message of this thread: instance, category, format and text, a line each.
+/// The last message of this thread: instance, category, format and text, a line each.
+pub fn said() -> String {
+    last(|text| String::from_utf8_lossy(text).into_owned())
+}
+
+/// Whether it tells of a panic, which nothing may cause.
+pub fn panicked() -> bool {
+    said().contains("internal error")
+}
+
+/// Calls `look` with the bytes of the last message.
 pub fn last<R>(look: impl FnOnce(&[u8]) -> R) -> R {
     SAID.with_borrow(|(_, last)| look(last))
 }

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
 
-use clap::Parser;
+use clap::{ArgGroup, Parser};
 
 mod crowd;
 mod digest;
@@ -18,6 +18,7 @@ mod guest;
 mod host;
 mod hostile;
 mod lifetimes;
+mod outputs;
 mod player;
 mod reference;
 mod sequence;
@@ -25,7 +26,7 @@ mod starts;
 mod unit;
 mod watch;
 
-use guest::Fate;
+use guest::{Fate, Guest};
 use sequence::Outcome;
 use unit::Unit;
 
@@ -33,25 +34,26 @@ use unit::Unit;
 ///
 /// Ends with an error, and the number of the sequence, if a unit crashes, hangs, panics, returns anything but fmi2OK
 /// and fmi2Error, refuses without a message, accepts what the standard forbids, gives an output that is no finite
-/// number, or is not as new after fmi2Reset.
+/// number, gives none at too many points, or is not as new after fmi2Reset.
 #[derive(Parser)]
+#[command(group = ArgGroup::new("what"))]
 struct Options {
     /// Folder with uam_controller.fmu and uam_plant.fmu.
     #[arg(value_name = "FOLDER", default_value = "out")]
     folder: PathBuf,
     /// How many sequences to play on each unit; each has about 20 calls.
-    #[arg(long, value_name = "NUMBER", default_value_t = 100_000)]
+    #[arg(long, value_name = "NUMBER", default_value_t = 100_000, group = "what")]
     sequences: u64,
     /// Instead of sequences: so many situations of each unit, whose state is saved and forged eight times, with a
     /// checksum that is right.
-    #[arg(long, value_name = "NUMBER")]
+    #[arg(long, value_name = "NUMBER", group = "what")]
     forgeries: Option<u64>,
     /// Instead of sequences: so many made-up start files in the resources of each unit.
-    #[arg(long, value_name = "NUMBER")]
+    #[arg(long, value_name = "NUMBER", group = "what")]
     starts: Option<u64>,
     /// Instead of sequences: so many instances of each unit, one after the other, from instantiation through
     /// two steps, a state and its bytes, to the end.
-    #[arg(long, value_name = "NUMBER")]
+    #[arg(long, value_name = "NUMBER", group = "what")]
     instances: Option<u32>,
     /// Number of the first sequence, situation or file.
     #[arg(long, value_name = "NUMBER", default_value_t = 0)]
@@ -117,8 +119,8 @@ fn play(unit: &Unit, other: &Unit, options: &Options) -> Result<(), String> {
     let begin = Instant::now();
     let expected = reference::of_new(unit)?;
     let play = |numbers, seed: &(dyn Fn(u64) -> u64 + Sync)| {
-        let stranger = || reference::Stranger::new(other);
-        let play = |stranger: &mut reference::Stranger<'_>, number| {
+        let stranger = || Guest::new(other);
+        let play = |stranger: &mut Guest<'_>, number| {
             sequence::play(unit, stranger.component, &expected, seed(number)).map_err(repeated(unit, number))
         };
         crowd::share(numbers, options.threads, stranger, play, Outcome::and)
@@ -129,30 +131,30 @@ fn play(unit: &Unit, other: &Unit, options: &Options) -> Result<(), String> {
     let Outcome { digest, tally } = play(numbers, &|number| options.seed(number))?;
     let (percent, seconds) = (100 * tally.refused / tally.calls.max(1), begin.elapsed().as_secs_f64());
     println!(
-        "{}: {count} sequences, {} calls, {percent} % refused, {} steps done, {seconds:.1} s",
-        unit.name, tally.calls, tally.steps
+        "{}: {count} sequences, {} calls, {percent} % refused, {}, {seconds:.1} s",
+        unit.name, tally.calls, tally.points
     );
     println!("{}: fingerprint {digest:016x}", unit.name);
-    Ok(())
+    tally.points.tell()
 }
 
 /// Forges states of one unit.
 fn forge(unit: &Unit, options: &Options, count: u64) -> Result<(), String> {
     let forge = |(): &mut (), number| forgery::play(unit, options.seed(number)).map_err(repeated(unit, number));
     let fate = crowd::share(options.numbers(count), options.threads, || Ok(()), forge, Fate::and)?;
-    println!("{}: {} forged states, {} accepted", unit.name, fate.tried, fate.accepted);
-    Ok(())
+    println!("{}: {} forged states, {} accepted; {}", unit.name, fate.tried, fate.accepted, fate.points);
+    fate.points.tell()
 }
 
 /// Makes start files up.
 fn start(unit: &Unit, options: &Options, count: u64) -> Result<(), String> {
-    let folder = || tempfile::tempdir().map_err(|error| error.to_string());
-    let start = |folder: &mut tempfile::TempDir, number| {
-        starts::play(unit, folder.path(), options.seed(number)).map_err(repeated(unit, number))
+    let desk = || starts::Desk::new(unit);
+    let start = |desk: &mut starts::Desk, number| {
+        starts::play(unit, desk, options.seed(number)).map_err(repeated(unit, number))
     };
-    let fate = crowd::share(options.numbers(count), options.threads, folder, start, Fate::and)?;
-    println!("{}: {} start files, {} accepted", unit.name, fate.tried, fate.accepted);
-    Ok(())
+    let fate = crowd::share(options.numbers(count), options.threads, desk, start, Fate::and)?;
+    println!("{}: {} start files, {} accepted; {}", unit.name, fate.tried, fate.accepted, fate.points);
+    fate.points.tell()
 }
 
 /// A message with the way to see the same again.

@@ -8,8 +8,9 @@ use std::ptr;
 use fastrand::Rng;
 
 use crate::digest::Digest;
-use crate::functions::{Component, State};
+use crate::functions::{Component, ERROR, OK, State};
 use crate::host;
+use crate::outputs::Points;
 use crate::unit::Unit;
 
 mod derivatives;
@@ -20,9 +21,6 @@ mod values;
 
 /// Room for lists of values. No list is longer, but for lengths that no memory has.
 pub const ROOM: usize = 64;
-
-pub const OK: c_int = 0;
-pub const ERROR: c_int = 3;
 
 /// Where an instance stands: figure 11 of the standard, without asynchronous steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,14 +38,17 @@ pub enum Stage {
 pub struct Tally {
     pub calls: u64,
     pub refused: u64,
-    /// Communication steps that were done.
-    pub steps: u64,
+    pub points: Points,
 }
 
 impl Tally {
     /// Of both.
     pub fn and(self, other: Self) -> Self {
-        Self { calls: self.calls + other.calls, refused: self.refused + other.refused, steps: self.steps + other.steps }
+        Self {
+            calls: self.calls + other.calls,
+            refused: self.refused + other.refused,
+            points: self.points.and(other.points),
+        }
     }
 }
 
@@ -128,11 +129,12 @@ impl<'a> Player<'a> {
             }
             ERROR => {
                 self.tally.refused += 1;
-                self.require(host::messages() == before || !host::last(panicked), &format!("{name}: {}", self.last()))?;
+                let panicked = host::messages() > before && host::panicked();
+                self.require(!panicked, &format!("{name}: {}", host::said()))?;
                 if ours && self.told {
                     self.require(host::messages() > before, &format!("{name}: fmi2Error without a message"))?;
-                    let named = host::last(|text| text.windows(name.len()).any(|part| part == name.as_bytes()));
-                    self.require(named, &format!("{name}: the message names another function: {}", self.last()))?;
+                    let named = host::said().contains(name);
+                    self.require(named, &format!("{name}: the message names another function: {}", host::said()))?;
                 }
                 Ok(false)
             }
@@ -147,10 +149,6 @@ impl<'a> Player<'a> {
         }
     }
 
-    fn last(&self) -> String {
-        host::last(|text| String::from_utf8_lossy(text).into_owned())
-    }
-
     fn require(&self, condition: bool, message: &str) -> Result<(), String> {
         if condition { Ok(()) } else { Err(message.to_owned()) }
     }
@@ -159,10 +157,3 @@ impl<'a> Player<'a> {
         self.require(stages.contains(&self.stage), &format!("{name}: fmi2OK while {:?}", self.stage))
     }
 }
-
-/// Whether a message tells of a panic, which no argument may cause.
-fn panicked(text: &[u8]) -> bool {
-    text.windows(PANIC.len()).any(|part| part == PANIC)
-}
-
-const PANIC: &[u8] = b"internal error";

@@ -6,6 +6,11 @@ use std::fs::{self, File};
 use std::path::Path;
 
 use fmu_build::platform::Platform;
+use uam::Structure;
+use uam::fmi2::Model;
+use uam::interface::controller::ControllerUnit;
+use uam::interface::plant::PlantUnit;
+use uam::variables::{Causality, Kind, Table};
 
 use crate::functions::Functions;
 
@@ -25,6 +30,33 @@ pub struct Unit {
     pub functions: Functions,
     /// Stays as long as the library is loaded.
     _folder: tempfile::TempDir,
+}
+
+impl Variable {
+    /// Those of a unit of another structure, which the same library serves.
+    pub fn of(identifier: &str, structure: Structure) -> Vec<Self> {
+        fn list<D>(table: &Table<D>) -> Vec<Variable> {
+            let variables = (0..).zip(table.variables());
+            variables
+                .map(|(reference, variable)| Variable {
+                    reference,
+                    output: variable.causality == Causality::Output,
+                    real: matches!(variable.kind, Kind::Real { .. }),
+                    name: variable.name.clone(),
+                })
+                .collect()
+        }
+        if identifier == PlantUnit::IDENTIFIER {
+            list(&PlantUnit::table(structure))
+        } else {
+            list(&ControllerUnit::table(structure))
+        }
+    }
+
+    /// Whether its value is a number that the unit computes.
+    pub fn real_output(&self) -> bool {
+        self.real && self.output
+    }
 }
 
 impl Unit {
@@ -56,12 +88,6 @@ impl Unit {
             name,
             _folder: folder,
         })
-    }
-
-    /// Value references of the real outputs.
-    pub fn real_outputs(&self) -> Vec<u32> {
-        let outputs = self.variables.iter().filter(|variable| variable.output && variable.real);
-        outputs.map(|variable| variable.reference).collect()
     }
 
     /// Value reference of a variable.

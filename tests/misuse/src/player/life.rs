@@ -2,7 +2,8 @@
 
 use std::ptr;
 
-use super::{OK, Player, Stage};
+use super::{Player, Stage};
+use crate::functions::OK;
 use crate::hostile::{integer, length, one_in, pointer, real, text};
 use crate::{host, reference};
 
@@ -32,7 +33,7 @@ impl Player<'_> {
             self.tally.refused += 1;
             self.listen(before);
             if acceptable {
-                return Err(format!("no instance: {}", self.last()));
+                return Err(format!("no instance: {}", host::said()));
             }
             return self.require(silent || host::messages() > before, "fmi2Instantiate: null without a message");
         }
@@ -80,7 +81,7 @@ impl Player<'_> {
         if self.call(name, |p, c| unsafe { (p.unit.functions.exit_initialization)(c) })? {
             self.require_stage(name, &[Stage::Initialization])?;
             (self.stage, self.time) = (Stage::Running, self.start);
-            self.all_finite("after initialization")?;
+            self.look("after initialization")?;
         }
         Ok(())
     }

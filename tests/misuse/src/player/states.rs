@@ -2,8 +2,8 @@
 
 use std::ptr;
 
-use super::{OK, Player, Saved};
-use crate::functions::State;
+use super::{Player, Saved};
+use crate::functions::{OK, State};
 use crate::hostile::{damage, length, one_in, pointer_mut};
 
 /// Room for the bytes of a state.

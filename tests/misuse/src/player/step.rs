@@ -1,8 +1,9 @@
 //! Communication steps, and what is said of them.
 
-use super::{ERROR, OK, Player, Stage};
-use crate::host;
+use super::{Player, Stage};
+use crate::functions::{ERROR, OK};
 use crate::hostile::{integer, pointer_mut, real};
+use crate::{host, outputs};
 
 // SAFETY, for all calls: every pointer is null, misaligned or good for ROOM elements, and every length is at
 // most ROOM or more than any memory has, which a unit must notice without reading.
@@ -40,7 +41,6 @@ impl Player<'_> {
         })?;
         if done {
             self.require_stage(name, &[Stage::Running])?;
-            self.tally.steps += 1;
             if size != 0.0 {
                 self.time = from + size;
             }
@@ -50,7 +50,7 @@ impl Player<'_> {
                 status == OK && end.to_bits() == self.time.to_bits(),
                 &format!("{name}: ends at {end}, not at {} = {from} + {size}", self.time),
             )?;
-            return self.all_finite(&format!("after the step from {from} by {size}"));
+            return self.look(&format!("after the step from {from} by {size}"));
         }
         if ours && !self.component.is_null() && self.stage == Stage::Running {
             // Either the arguments were refused, or the instance has failed: then this is fmi2Error.
@@ -63,20 +63,19 @@ impl Player<'_> {
         Ok(())
     }
 
-    /// Every real output is a number, and all go into the fingerprint; or the instance has failed, and says why.
-    pub fn all_finite(&mut self, when: &str) -> Result<(), String> {
-        for variable in self.unit.variables.iter().filter(|variable| variable.output && variable.real) {
-            let mut value = f64::NAN;
-            let (get, before) = (self.unit.functions.get_real, host::messages());
-            let status = unsafe { get(self.component, &raw const variable.reference, 1, &raw mut value) };
-            if status == ERROR && self.stage == Stage::Running {
-                self.stage = Stage::Failed;
-                self.listen(before);
-                let said = !self.told || host::messages() > before && self.last().contains("fmi2GetReal: the outputs");
-                return self.require(said, &format!("{} is refused {when}: {}", variable.name, self.last()));
-            }
-            self.require(status == OK && value.is_finite(), &format!("{} is {value} {when}", variable.name))?;
-            self.digest.take(&value.to_bits().to_le_bytes());
+    /// Every real output is a number, and so is its derivative, and all go into the fingerprint; or that is refused with
+    /// a reason.
+    pub fn look(&mut self, when: &str) -> Result<(), String> {
+        let (before, mut digest) = (host::messages(), self.digest);
+        let take = |value: f64| digest.take(&value.to_bits().to_le_bytes());
+        let numbers = self.unit.variables.iter().filter(|variable| variable.real_output());
+        let points = outputs::read(&self.unit.functions, self.component, numbers, self.told, take)
+            .map_err(|message| format!("{message} {when}"))?;
+        self.digest = digest;
+        self.listen(before);
+        self.tally.points = self.tally.points.and(points);
+        if points.without_outputs > 0 {
+            self.stage = Stage::Failed;
         }
         Ok(())
     }
