@@ -135,6 +135,7 @@ class FmiSim:
 HOSTS: list[Host | Crate | FmiSim] = [
     Host("FMPy, a parallel loop", "with_fmpy", "fmpy"),
     Host("libcosim", "with_libcosim", "libcosimpy"),
+    Host("libcosim, from the SSP", "with_libcosim_ssp", "libcosimpy"),
     Host("Ecos, from the SSP", "with_ecos", "ecospy"),
     Host("container, parallel", "with_container", "fmu-manipulation-toolbox"),
     Host("container, plant first", "with_container", "fmu-manipulation-toolbox", ("--sequential",)),
