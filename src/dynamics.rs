@@ -210,6 +210,13 @@ impl<const N: usize> Motion<N> {
         (self.rate + self.slope * (0.5 * t)) * t
     }
 
+    /// How much farther than `other` it leads in the time `t` \[s\], and how much faster it is then.
+    #[must_use]
+    pub fn beyond(&self, other: &Self, t: f64) -> [SVector<f64, N>; 2] {
+        let (rate, slope) = (self.rate - other.rate, self.slope - other.slope);
+        [(rate + slope * (0.5 * t)) * t, rate + slope * t]
+    }
+
     /// The motion that remains after the time `t` \[s\].
     #[must_use]
     pub fn after(&self, t: f64) -> Self {

@@ -34,11 +34,9 @@ impl<const N: usize> Outset<N> {
         let motion = self.accelerating_to(&resolved.rate, horizon);
         self.accelerated(&ahead, &response, &motion, [t, horizon], end);
         Plan {
-            status: resolved.status,
-            min_singular_value: resolved.min_singular_value,
             velocity_residual: (problem.path * resolved.rate - problem.velocity).norm(),
             moment_residual: (carried - end.carried) / horizon,
-            ..Plan::moving(motion)
+            ..Plan::of(&resolved, motion)
         }
     }
 

@@ -26,17 +26,15 @@ impl<const N: usize> Outset<N> {
         let resolved = self.solve(&problem, horizon, &self.places);
         let rate = resolved.rate;
         self.end_explicit(here, &response, &rate, &(rate * horizon), [t, horizon], end);
+        let motion = match self.hold {
+            Hold::ZeroOrder => Motion::constant(rate),
+            // As the thesis handed its rates to the multibody program.
+            Hold::FirstOrder => self.accelerating_to(&rate, horizon),
+        };
         Plan {
-            motion: match self.hold {
-                Hold::ZeroOrder => Motion::constant(rate),
-                // As the thesis handed its rates to the multibody program.
-                Hold::FirstOrder => self.accelerating_to(&rate, horizon),
-            },
-            status: resolved.status,
-            places: resolved.places,
-            min_singular_value: resolved.min_singular_value,
             velocity_residual: (problem.path * rate - problem.velocity).norm(),
             moment_residual: (carried - end.carried) / horizon,
+            ..Plan::of(&resolved, motion)
         }
     }
 

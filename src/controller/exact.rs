@@ -3,7 +3,8 @@
 //! The coming interval is integrated under the rates in question; the end effector is then on the
 //! reference at its end, and the mean moment on the UAV is zero if that is asked for. Each iteration
 //! solves the whole resolution linearised at the present rates, not a correction to them: corrections of
-//! minimum norm would let motion in the null space grow without bound.
+//! minimum norm would let motion in the null space grow without bound. The first rates in question go on as
+//! those of the plans before, so closely that mostly the first linearisation leaves nothing.
 
 use nalgebra::SVector;
 
@@ -18,7 +19,8 @@ use crate::parameters::Hold;
 use crate::planar::Vec2;
 use crate::reference::Target;
 
-/// Iterations of a plan at most; one does normally, more where a stiff autopilot answers within the interval.
+/// Iterations of a plan at most; one does normally, two after a kink of the path, more where a stiff autopilot answers
+/// within the interval.
 const ITERATIONS: usize = 6;
 
 /// End effector this close to the reference at the end of the interval is on it \[m\].
@@ -40,7 +42,7 @@ impl<const N: usize> Outset<N> {
     pub fn plan_exact(&self, t: f64, horizon: f64, target: &Target, end: &mut Prediction<N>) -> Result<Plan<N>> {
         let accelerates = self.resolver.accelerates();
         let ramped = accelerates || self.hold == Hold::FirstOrder;
-        let mut plan = Plan { places: self.places, ..Plan::moving(self.go_on(horizon)) };
+        let mut plan = Plan { places: self.places, ..Plan::moving(self.go_on()) };
         let mut left_over = 0.0;
         let mut nearest: Option<(f64, Plan<N>)> = None;
         for iteration in 0..=ITERATIONS {
@@ -71,22 +73,22 @@ impl<const N: usize> Outset<N> {
             };
             let asked = if ramped { self.at_end(&response, *turn, target.velocity, carried) } else { mean };
             let resolved = self.solve(&asked, horizon, &plan.places);
-            if iteration > 0 && resolved.status != Status::Ok && resolved.status == plan.status && !ramped {
-                // The path is given up in part: whether the rates still change says when it is over.
-                let change = (resolved.rate - plan.motion.rate).norm() * horizon * self.resolver.reach;
-                if change <= ON_REFERENCE {
-                    return Ok(plan);
-                }
-            }
-            plan.motion = if accelerates {
+            let motion = if accelerates {
                 self.accelerating_to(&resolved.rate, horizon)
             } else if ramped && resolved.status == Status::Ok {
                 self.ramp(&mean, &resolved.rate, horizon)
             } else {
                 Motion::constant(resolved.rate)
             };
-            (plan.status, plan.places) = (resolved.status, resolved.places);
-            plan.min_singular_value = resolved.min_singular_value;
+            let [way, last] = motion.beyond(&plan.motion, horizon);
+            plan = Plan::of(&resolved, motion);
+            if (way.norm() + last.norm() * horizon) * self.resolver.reach <= ON_REFERENCE {
+                // So little is linear. Where the path is given up in part, it also says when nothing changes any more.
+                let base = response.base_way(&way);
+                self.dynamics.displace(&mut end.situation, base, &way, &motion.rate_after(horizon));
+                self.weigh(&mut plan, impulse, horizon, end);
+                return Ok(plan);
+            }
             left_over = resolved.moment;
         }
         if let Some((_, nearest)) = nearest
@@ -98,17 +100,14 @@ impl<const N: usize> Outset<N> {
         Ok(plan)
     }
 
-    /// The motion that goes on as before: along a ramp, or at constant rates that go on changing along a cubic, so close
-    /// that one iteration leaves nothing, where rates extrapolated along a straight line take two.
-    fn go_on(&self, horizon: f64) -> Motion<N> {
-        if self.resolver.accelerates() {
-            self.accelerating_to(&self.motion.rate_after(horizon), horizon)
-        } else if self.hold == Hold::FirstOrder {
-            self.motion
-        } else {
-            let [first, second, third] = &self.before;
-            Motion::constant((self.motion.rate + second) * 4.0 - first * 6.0 - third)
-        }
+    /// The motion that goes on changing as it did, along a polynomial of order 4: so close that the interval need not be
+    /// integrated again where the path is smooth.
+    fn go_on(&self) -> Motion<N> {
+        let [first, second, third, fourth, fifth] = &self.before;
+        let next = |of: fn(&Motion<N>) -> &SVector<f64, N>| {
+            (of(first) - of(fourth)) * 5.0 + (of(third) - of(second)) * 10.0 + of(fifth)
+        };
+        Motion { rate: next(|motion| &motion.rate), slope: next(|motion| &motion.slope) }
     }
 
     /// How far the end effector is from the `target` at the `end` of the interval of length `horizon`, or will be at
@@ -131,9 +130,15 @@ impl<const N: usize> Outset<N> {
         let mut impulse = 0.0;
         end.situation = self.now.situation;
         dynamics.advance(&mut end.situation, &plan.motion, &Loads::CALM, t, horizon, Account::Carried(&mut impulse))?;
-        end.end_step(dynamics);
-        plan.moment_residual = (self.now.carried + impulse - end.carried) / horizon;
+        self.weigh(plan, impulse, horizon, end);
         Ok(impulse)
+    }
+
+    /// Makes the angular momentum at the `end` follow from its situation, and the moment on the UAV that is left in the
+    /// `plan` from that and from the `impulse` of all other moments on what the UAV carries \[N m s\].
+    fn weigh(&self, plan: &mut Plan<N>, impulse: f64, horizon: f64, end: &mut Prediction<N>) {
+        end.end_step(&self.dynamics);
+        plan.moment_residual = (self.now.carried + impulse - end.carried) / horizon;
     }
 
     /// The motion that ends at the rates `last` and follows the path of `problem` in the mean.

@@ -22,8 +22,8 @@ pub(super) struct Outset<const N: usize> {
     pub now: Prediction<N>,
     /// Rates and accelerations sent.
     pub motion: Motion<N>,
-    /// Rates of the three plans before, the last one first.
-    pub before: [SVector<f64, N>; 3],
+    /// Motions of the five plans before, the last one first.
+    pub before: [Motion<N>; 5],
     /// Which rates are at their limits.
     pub places: Places,
 }

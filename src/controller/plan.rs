@@ -1,6 +1,7 @@
 //! What is planned for one interval.
 
 use super::Status;
+use super::resolution::Resolved;
 use crate::dynamics::{Motion, check_finite};
 use crate::error::Result;
 use crate::qp::{self, Places};
@@ -33,6 +34,12 @@ impl<const N: usize> Plan<N> {
             velocity_residual: 0.0,
             moment_residual: 0.0,
         }
+    }
+
+    /// The `resolved` rates, reached by this motion.
+    pub fn of(resolved: &Resolved<N>, motion: Motion<N>) -> Self {
+        let &Resolved { status, places, min_singular_value, .. } = resolved;
+        Self { status, places, min_singular_value, ..Self::moving(motion) }
     }
 
     /// Whether all that the host will see of it is finite.

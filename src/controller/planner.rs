@@ -78,7 +78,7 @@ impl<const N: usize> Controller<N> {
                 resolver: Resolver::new(structure, parameters, dynamics.vehicle.reach()),
                 hold: ik.hold,
                 motion: Motion::constant(SVector::zeros()),
-                before: [SVector::zeros(); 3],
+                before: [Motion::constant(SVector::zeros()); 5],
                 places: qp::FREE,
                 dynamics,
                 now,
@@ -120,7 +120,7 @@ impl<const N: usize> Controller<N> {
         self.planned_end.situation.state.check(t)?;
         self.aim = target.displacement;
         let outset = &mut self.outset;
-        outset.before = [outset.motion.rate, outset.before[0], outset.before[1]];
+        outset.before = [plan.motion, outset.before[0], outset.before[1], outset.before[2], outset.before[3]];
         outset.motion = plan.motion;
         outset.places = plan.places;
         self.planned_at = t;

@@ -59,9 +59,14 @@ impl<const N: usize> Response<N> {
         self
     }
 
+    /// Way of the base over the short way `way` of the coordinates, axes of the UAV frame.
+    pub fn base_way(&self, way: &SVector<f64, N>) -> Twist {
+        self.base.iter().zip(way).fold(Twist::ZERO, |sum, (reaction, way)| sum + *reaction * *way)
+    }
+
     /// Motion of the base at the rates `rate`, axes of the UAV frame.
     pub fn base_velocity(&self, rate: &SVector<f64, N>) -> Twist {
-        self.base.iter().zip(rate.iter()).fold(self.base_free, |v, (reaction, rate)| v + *reaction * *rate)
+        self.base_free + self.base_way(rate)
     }
 
     /// Angular momentum of what the UAV carries at the rates `rate` \[N m s\].

@@ -58,4 +58,26 @@ impl<const N: usize> Dynamics<N> {
         end.turn = if self.base.turns_arm() { here.turn.then(turned) } else { Turn::NONE };
         end.node.follow(&self.vehicle, &here.node, way, state.held, *rate);
     }
+
+    /// Displaces a `situation` by so little that all is linear in it: the coordinates by `way`, the base by `base` (axes
+    /// of the UAV frame), at whose end the rates are `rate`. Momentum stays.
+    pub fn displace(&self, situation: &mut Situation<N>, base: Twist, way: &SVector<f64, N>, rate: &SVector<f64, N>) {
+        let Situation { state, turn, node } = situation;
+        state.pose += in_inertial_frame(*turn, base);
+        state.position += way;
+        state.rate = *rate;
+        let posture = node.posture;
+        node.posture.follow(&self.vehicle, &posture, way);
+        node.matrix.sum_up(&self.vehicle, &node.posture, state.held);
+        node.move_at(*rate);
+        if self.base.turns_arm() {
+            *turn = turn.then(Turn::by_small(base.angular));
+        }
+        let base = self.base_motion(node, state.momentum_in(*turn), node.arm);
+        state.velocity = in_inertial_frame(*turn, base);
+        if self.on_carriage() {
+            let h = node.matrix.of_base(base) + node.arm;
+            (state.momentum.y, state.momentum.z) = (h.linear.y, h.angular);
+        }
+    }
 }
