@@ -17,30 +17,32 @@ use uam::Structure;
 use uam::options::Choice;
 use uam::parameters::{Discretization, Resolution};
 
-static BUILT: LazyLock<Built> = LazyLock::new(|| {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("benches");
-    build(&BuildOptions::new(Structure::DEFAULT, folder), &|_| {}).unwrap()
-});
+static BUILT: LazyLock<Built> = LazyLock::new(|| built(Structure::DEFAULT.links));
 
 /// Length of a run, and of a step \[s\].
 const DURATION: u32 = 30;
 const STEP: f64 = 1e-3;
+/// Longer than any measurement \[s\].
+const LONG: f64 = 1e6;
 
 fn main() {
     LazyLock::force(&BUILT);
     divan::main();
 }
 
-fn pair() -> Pair {
-    Pair::open(&BUILT.controller, &BUILT.plant).unwrap()
-}
-
 /// The FMUs of a vehicle with this number of links.
-fn pair_with(links: usize) -> Pair {
+fn built(links: usize) -> Built {
     let structure = Structure { links, ..Structure::DEFAULT };
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("benches-{links}"));
-    let built = build(&BuildOptions::new(structure, folder), &|_| {}).unwrap();
+    build(&BuildOptions::new(structure, folder), &|_| {}).unwrap()
+}
+
+fn open(built: &Built) -> Pair {
     Pair::open(&built.controller, &built.plant).unwrap()
+}
+
+fn pair() -> Pair {
+    open(&BUILT)
 }
 
 /// From the file to an instance: unpacking, loading of the library, `fmi2Instantiate`.
@@ -59,7 +61,7 @@ fn instantiate(bencher: Bencher<'_, '_>) {
 /// A step of the plant, with all inputs set before it and all outputs got after it, by number of links.
 #[divan::bench(args = [1, 2, 3, 4, 5, 6], sample_size = 1000)]
 fn plant_step_with_all_values(bencher: Bencher<'_, '_>, links: usize) {
-    let pair = pair_with(links);
+    let pair = open(&built(links));
     let mut unit = Stepped::new(&pair.plant);
     bencher.bench_local(|| unit.step());
 }
@@ -67,7 +69,7 @@ fn plant_step_with_all_values(bencher: Bencher<'_, '_>, links: usize) {
 /// The same for the controller.
 #[divan::bench(args = [1, 2, 3, 4, 5, 6], sample_size = 1000)]
 fn controller_step_with_all_values(bencher: Bencher<'_, '_>, links: usize) {
-    let pair = pair_with(links);
+    let pair = open(&built(links));
     let mut unit = Stepped::new(&pair.controller);
     bencher.bench_local(|| unit.step());
 }
@@ -128,15 +130,10 @@ fn saved(side: Side) -> Instance {
         Side::Controller => pair.controller.instantiate("controller"),
     }
     .unwrap();
-    start(&mut unit);
+    unit.initialize(0.0, LONG).unwrap();
     unit.do_step(0.0, STEP).unwrap();
     unit.save().unwrap();
     unit
-}
-
-fn start(unit: &mut Instance) {
-    unit.enter_initialization(0.0, 1e6).unwrap();
-    unit.exit_initialization().unwrap();
 }
 
 /// A unit that is stepped on and on, with all its inputs and outputs.
@@ -157,7 +154,7 @@ impl Stepped {
         };
         let (inputs, outputs) = (select(Causality::Input), select(Causality::Output));
         let mut unit = fmu.instantiate("unit").unwrap();
-        start(&mut unit);
+        unit.initialize(0.0, LONG).unwrap();
         Self { unit, given: inputs.values(), seen: outputs.values(), inputs, outputs, steps: 0 }
     }
 

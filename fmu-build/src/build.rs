@@ -54,8 +54,7 @@ pub struct Built {
 /// If the start values do not go together, the sources are not found, do not compile, or a file cannot be written.
 pub fn build(options: &BuildOptions, progress: &dyn Fn(&str)) -> Result<Built> {
     options.design.check()?;
-    let controller = Unit::controller(options.design.clone());
-    let plant = Unit::plant(options.design.clone());
+    let [controller, plant] = Unit::pair(options.design.clone());
     let packages = [controller.interface.identifier, plant.interface.identifier];
     let root = workspace::root()?;
     let compile = |toolchain: &Toolchain| Ok((toolchain.platform()?, compile(&root, &packages, *toolchain, progress)?));
@@ -94,7 +93,7 @@ pub fn build(options: &BuildOptions, progress: &dyn Fn(&str)) -> Result<Built> {
 /// If a file cannot be written.
 pub fn write_descriptions(folder: &Path) -> Result<()> {
     files::create_folder(folder)?;
-    for unit in [Unit::controller(Structure::DEFAULT), Unit::plant(Structure::DEFAULT)] {
+    for unit in Unit::pair(Structure::DEFAULT) {
         let path = folder.join(format!("{}.xml", unit.interface.identifier));
         files::write(&path, model_description(&unit.interface)?.as_bytes())?;
     }

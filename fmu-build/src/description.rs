@@ -10,7 +10,7 @@ use uam::variables::{Causality, Variability};
 use crate::error::Result;
 use crate::interface::{Enumeration, Interface, Value, Variable};
 use crate::metadata;
-use crate::xml::{self, Xml, integer, number};
+use crate::xml::{self, Ending, Xml, integer, number};
 
 /// The model description of a unit.
 ///
@@ -30,10 +30,10 @@ pub fn model_description(interface: &Interface) -> Result<String> {
             ("generationTool", metadata::GENERATION_TOOL),
             ("variableNamingConvention", interface.naming.name()),
         ];
-        xml::tall_element(xml, "fmiModelDescription", attributes).write_inner_content(|xml| {
+        xml::tall_element(xml, "fmiModelDescription", attributes).holding(|xml| {
             let identifier = [("modelIdentifier", interface.identifier)];
             xml::tall_element(xml, "CoSimulation", identifier.into_iter().chain(interface.capabilities.attributes()))
-                .write_empty()?;
+                .empty()?;
             write_units(xml, &interface.units())?;
             write_types(xml, &interface.enumerations())?;
             write_log_categories(xml)?;
@@ -41,79 +41,55 @@ pub fn model_description(interface: &Interface) -> Result<String> {
                 .with_attribute(("startTime", number(metadata::START_TIME)))
                 .with_attribute(("stopTime", number(interface.experiment.stop_time)))
                 .with_attribute(("stepSize", number(interface.experiment.step_size)))
-                .write_empty()?;
-            xml.create_element("ModelVariables").write_inner_content(|xml| {
-                interface
-                    .variables
-                    .iter()
-                    .enumerate()
-                    .try_for_each(|(reference, variable)| write_variable(xml, reference, variable))
+                .empty()?;
+            let variables = interface.variables.iter().enumerate();
+            xml::list(xml, "ModelVariables", variables, |xml, (reference, variable)| {
+                write_variable(xml, reference, variable)
             })?;
             write_structure(xml, interface)
-        })?;
-        Ok(())
+        })
     })
 }
 
 fn write_units(xml: &mut Xml, units: &[&Unit]) -> io::Result<()> {
-    xml.create_element("UnitDefinitions").write_inner_content(|xml| {
-        for unit in units {
-            xml.create_element("Unit").with_attribute(("name", unit.name)).write_inner_content(|xml| {
-                xml.create_element("BaseUnit").with_attributes(xml::base_exponents(unit)).write_empty()?;
-                if let Some(display) = &unit.display {
-                    xml.create_element("DisplayUnit")
-                        .with_attribute(("name", display.name))
-                        .with_attribute(("factor", number(display.factor)))
-                        .write_empty()?;
-                }
-                Ok(())
-            })?;
-        }
-        Ok(())
-    })?;
-    Ok(())
+    xml::list(xml, "UnitDefinitions", units, |xml, unit| {
+        xml.create_element("Unit").with_attribute(("name", unit.name)).holding(|xml| {
+            xml.create_element("BaseUnit").with_attributes(xml::base_exponents(unit)).empty()?;
+            let Some(display) = &unit.display else { return Ok(()) };
+            xml.create_element("DisplayUnit")
+                .with_attribute(("name", display.name))
+                .with_attribute(("factor", number(display.factor)))
+                .empty()
+        })
+    })
 }
 
 fn write_types(xml: &mut Xml, enumerations: &[Enumeration]) -> io::Result<()> {
     if enumerations.is_empty() {
         return Ok(());
     }
-    xml.create_element("TypeDefinitions").write_inner_content(|xml| {
-        enumerations.iter().try_for_each(|enumeration| write_enumeration(xml, enumeration))
-    })?;
-    Ok(())
+    xml::list(xml, "TypeDefinitions", enumerations, write_enumeration)
 }
 
 fn write_enumeration(xml: &mut Xml, enumeration: &Enumeration) -> io::Result<()> {
     xml.create_element("SimpleType")
         .with_attribute(("name", enumeration.name))
         .with_attribute(("description", enumeration.description))
-        .write_inner_content(|xml| {
-            xml.create_element("Enumeration").write_inner_content(|xml| {
-                for (number, item) in (1..).zip(enumeration.items) {
-                    xml.create_element("Item")
-                        .with_attribute(("name", item.name))
-                        .with_attribute(("value", integer(number)))
-                        .with_attribute(("description", item.description))
-                        .write_empty()?;
-                }
-                Ok(())
-            })?;
-            Ok(())
-        })?;
-    Ok(())
+        .holding(|xml| {
+            xml::list(xml, "Enumeration", (1..).zip(enumeration.items), |xml, (number, item)| {
+                xml.create_element("Item")
+                    .with_attribute(("name", item.name))
+                    .with_attribute(("value", integer(number)))
+                    .with_attribute(("description", item.description))
+                    .empty()
+            })
+        })
 }
 
 fn write_log_categories(xml: &mut Xml) -> io::Result<()> {
-    xml.create_element("LogCategories").write_inner_content(|xml| {
-        for (name, description) in CATEGORIES {
-            xml.create_element("Category")
-                .with_attributes([("name", name), ("description", description)])
-                .write_empty()?;
-        }
-        Ok(())
-    })?;
-    Ok(())
+    xml::list(xml, "LogCategories", CATEGORIES, |xml, (name, description)| {
+        xml.create_element("Category").with_attributes([("name", name), ("description", description)]).empty()
+    })
 }
 
 fn write_variable(xml: &mut Xml, reference: usize, variable: &Variable) -> io::Result<()> {
@@ -142,8 +118,7 @@ fn write_variable(xml: &mut Xml, reference: usize, variable: &Variable) -> io::R
         .with_attribute(("causality", causality))
         .with_attribute(("variability", variability))
         .with_attributes(initial.map(|initial| ("initial", initial)))
-        .write_inner_content(|xml| write_value(xml, variable))?;
-    Ok(())
+        .holding(|xml| write_value(xml, variable))
 }
 
 fn write_value(xml: &mut Xml, variable: &Variable) -> io::Result<()> {
@@ -156,19 +131,16 @@ fn write_value(xml: &mut Xml, variable: &Variable) -> io::Result<()> {
             .with_attributes(bounds.min.map(|min| ("min", number(min))))
             .with_attributes(bounds.max.map(|max| ("max", number(max))))
             .with_attributes(started.then(|| ("start", number(start))))
-            .with_attributes(variable.derivative_of.map(|position| ("derivative", Cow::from(index(position)))))
-            .write_empty()?,
-        Value::Boolean { start } => xml
-            .create_element("Boolean")
-            .with_attributes(started.then_some(("start", if start { "true" } else { "false" })))
-            .write_empty()?,
+            .with_attributes(variable.derivative_of.map(|position| ("derivative", Cow::from(index(position))))),
+        Value::Boolean { start } => {
+            xml.create_element("Boolean").with_attributes(started.then(|| ("start", xml::truth(start))))
+        }
         Value::Enumeration { options, start } => xml
             .create_element("Enumeration")
             .with_attribute(("declaredType", options.name))
-            .with_attributes(started.then(|| ("start", integer(start))))
-            .write_empty()?,
-    };
-    Ok(())
+            .with_attributes(started.then(|| ("start", integer(start)))),
+    }
+    .empty()
 }
 
 /// Which variables are outputs and unknowns of the initialization, and on what they depend.
@@ -176,18 +148,13 @@ fn write_value(xml: &mut Xml, variable: &Variable) -> io::Result<()> {
 /// No output depends on an input at a communication point, so every list of dependencies is given and
 /// empty: leaving it out would mean "depends on everything" and give hosts algebraic loops to solve.
 fn write_structure(xml: &mut Xml, interface: &Interface) -> io::Result<()> {
-    xml.create_element("ModelStructure").write_inner_content(|xml| {
-        xml.create_element("Outputs").write_inner_content(|xml| {
-            interface.with(Causality::Output).try_for_each(|(position, _)| write_unknown(xml, position, &[]))
-        })?;
-        xml.create_element("InitialUnknowns").write_inner_content(|xml| {
-            interface
-                .with(Causality::Output)
-                .try_for_each(|(position, output)| write_unknown(xml, position, &output.initially_from))
-        })?;
-        Ok(())
-    })?;
-    Ok(())
+    xml.create_element("ModelStructure").holding(|xml| {
+        let outputs = || interface.with(Causality::Output);
+        xml::list(xml, "Outputs", outputs(), |xml, (position, _)| write_unknown(xml, position, &[]))?;
+        xml::list(xml, "InitialUnknowns", outputs(), |xml, (position, output)| {
+            write_unknown(xml, position, &output.initially_from)
+        })
+    })
 }
 
 fn write_unknown(xml: &mut Xml, position: usize, depends_on: &[usize]) -> io::Result<()> {
@@ -196,8 +163,7 @@ fn write_unknown(xml: &mut Xml, position: usize, depends_on: &[usize]) -> io::Re
         .with_attribute(("index", index(position).as_str()))
         .with_attribute(("dependencies", dependencies.join(" ").as_str()))
         .with_attribute(("dependenciesKind", vec!["dependent"; depends_on.len()].join(" ").as_str()))
-        .write_empty()?;
-    Ok(())
+        .empty()
 }
 
 /// Model structure and derivatives count variables from 1, in contrast to value references.

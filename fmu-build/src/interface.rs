@@ -145,11 +145,19 @@ impl Interface {
 
     /// The outputs that are inputs of `other`, by name and type.
     pub fn outputs_for<'a>(&'a self, other: &'a Self) -> impl Iterator<Item = &'a Variable> {
-        let fits =
-            |output: &Variable, input: &Variable| output.name == input.name && output.value.has_type_of(&input.value);
-        self.with(Causality::Output)
-            .map(|(_, output)| output)
-            .filter(move |output| other.with(Causality::Input).any(|(_, input)| fits(output, input)))
+        self.in_common(Causality::Output, other, Causality::Input)
+    }
+
+    /// The variables of one causality that are variables of another causality in `other`, by name and type.
+    pub fn in_common<'a>(
+        &'a self,
+        causality: Causality,
+        other: &'a Self,
+        there: Causality,
+    ) -> impl Iterator<Item = &'a Variable> {
+        let matches = |one: &Variable, other: &Variable| one.name == other.name && one.value.has_type_of(&other.value);
+        let found = move |one: &&Variable| other.with(there).any(|(_, other)| matches(one, other));
+        self.with(causality).map(|(_, variable)| variable).filter(found)
     }
 
     /// The units in use, each once, in order of first use.

@@ -9,6 +9,7 @@ pub mod budget;
 mod chart;
 mod decimate;
 pub mod figures;
+mod panels;
 pub mod pick_up;
 mod pose;
 pub mod reach;

@@ -65,14 +65,6 @@ fn between<'a>(from: &'a Component<'_>, to: &'a Component<'_>) -> impl Iterator<
 /// The parameters that all components have, in the order of the first.
 fn shared_parameters<'a>(components: &'a [Component<'_>; 2]) -> impl Iterator<Item = &'a Variable> {
     let [first, second] = components;
-    first
-        .interface
-        .with(Causality::Parameter)
-        .map(|(_, parameter)| parameter)
-        .filter(|parameter| second.interface.with(Causality::Parameter).any(|(_, other)| matches(parameter, other)))
-        .filter(|parameter| !matches!(parameter.value, Value::Enumeration { .. }))
-}
-
-fn matches(one: &Variable, other: &Variable) -> bool {
-    one.name == other.name && one.value.has_type_of(&other.value)
+    let shared = first.interface.in_common(Causality::Parameter, second.interface, Causality::Parameter);
+    shared.filter(|parameter| !matches!(parameter.value, Value::Enumeration { .. }))
 }

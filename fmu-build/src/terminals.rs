@@ -3,9 +3,11 @@
 //!
 //! FMI 2.0 does not know this file; it is that of FMI 3.0, which importers of FMI 2.0 read or pass over.
 
+use std::io;
+
 use crate::error::Result;
 use crate::units::Unit;
-use crate::xml;
+use crate::xml::{self, Ending, Xml};
 
 /// Folder of the file and the icon inside the FMU.
 pub const FOLDER: &str = "terminalsAndIcons";
@@ -20,36 +22,26 @@ const SCALE: (&str, &str) = ("suggestedScalingFactorTo_mm", "0.1");
 /// If the document cannot be put together.
 pub fn terminals_and_icons(unit: &Unit) -> Result<String> {
     xml::document("terminalsAndIcons.xml", |xml| {
-        xml.create_element("fmiTerminalsAndIcons").with_attribute(("fmiVersion", "3.0")).write_inner_content(
-            |xml| {
-                xml.create_element("GraphicalRepresentation").write_inner_content(|xml| {
-                    xml.create_element("CoordinateSystem")
-                        .with_attributes(CORNERS)
-                        .with_attribute(SCALE)
-                        .write_empty()?;
-                    xml.create_element("Icon").with_attributes(CORNERS).write_empty()?;
-                    Ok(())
-                })?;
-                xml.create_element("Terminals").write_inner_content(|xml| {
-                    xml.create_element("Terminal")
-                        .with_attribute(("name", "commands"))
-                        .with_attribute(("matchingRule", "plug"))
-                        .with_attribute(("description", "From the controller to what moves the arm"))
-                        .write_inner_content(|xml| {
-                            for name in &unit.commands {
-                                xml.create_element("TerminalMemberVariable")
-                                    .with_attribute(("variableName", name.as_str()))
-                                    .with_attribute(("memberName", name.as_str()))
-                                    .with_attribute(("variableKind", "signal"))
-                                    .write_empty()?;
-                            }
-                            Ok(())
-                        })?;
-                    Ok(())
-                })?;
-                Ok(())
-            },
-        )?;
-        Ok(())
+        xml.create_element("fmiTerminalsAndIcons").with_attribute(("fmiVersion", "3.0")).holding(|xml| {
+            xml.create_element("GraphicalRepresentation").holding(|xml| {
+                xml.create_element("CoordinateSystem").with_attributes(CORNERS).with_attribute(SCALE).empty()?;
+                xml.create_element("Icon").with_attributes(CORNERS).empty()
+            })?;
+            xml.create_element("Terminals").holding(|xml| {
+                xml.create_element("Terminal")
+                    .with_attribute(("name", "commands"))
+                    .with_attribute(("matchingRule", "plug"))
+                    .with_attribute(("description", "From the controller to what moves the arm"))
+                    .holding(|xml| unit.commands.iter().try_for_each(|name| write_member(xml, name)))
+            })
+        })
     })
+}
+
+fn write_member(xml: &mut Xml, name: &str) -> io::Result<()> {
+    xml.create_element("TerminalMemberVariable")
+        .with_attribute(("variableName", name))
+        .with_attribute(("memberName", name))
+        .with_attribute(("variableKind", "signal"))
+        .empty()
 }

@@ -42,9 +42,8 @@ mod tests {
 
     /// Every name that users can find in the units of a structure.
     fn names(structure: Structure) -> HashSet<String> {
-        let units = [Unit::controller(structure), Unit::plant(structure)];
         let mut names = HashSet::new();
-        for interface in units.map(|unit| unit.interface) {
+        for interface in Unit::pair(structure).map(|unit| unit.interface) {
             names.insert(interface.identifier.to_owned());
             let items = interface.enumerations().into_iter().flat_map(|enumeration| enumeration.items);
             names.extend(items.map(|item| item.name.to_owned()));

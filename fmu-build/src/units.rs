@@ -23,38 +23,36 @@ pub struct Unit {
 }
 
 impl Unit {
-    /// The controller of a design, for instance of a structure with the library's own start values.
+    /// Controller and plant of a design, for instance of a structure with the library's own start values.
+    #[must_use]
+    pub fn pair(design: impl Into<Design>) -> [Self; 2] {
+        let design = design.into();
+        let (controller, plant) = (Interface::of::<ControllerUnit>(&design), Interface::of::<PlantUnit>(&design));
+        let commands: Vec<String> = controller.outputs_for(&plant).map(|output| output.name.clone()).collect();
+        let unit = |interface, icon, text| Self {
+            structure: design.structure,
+            interface,
+            commands: commands.clone(),
+            icon,
+            text,
+        };
+        [
+            unit(controller, include_bytes!("../../modelDescription/uam_controller.png"), text::CONTROLLER),
+            unit(plant, include_bytes!("../../modelDescription/uam_plant.png"), text::PLANT),
+        ]
+    }
+
+    /// The controller of a design.
     #[must_use]
     pub fn controller(design: impl Into<Design>) -> Self {
-        let design = design.into();
-        let (controller, _, commands) = pair(&design);
-        Self {
-            structure: design.structure,
-            interface: controller,
-            commands,
-            icon: include_bytes!("../../modelDescription/uam_controller.png"),
-            text: text::CONTROLLER,
-        }
+        let [controller, _] = Self::pair(design);
+        controller
     }
 
-    /// The plant of a design, for instance of a structure with the library's own start values.
+    /// The plant of a design.
     #[must_use]
     pub fn plant(design: impl Into<Design>) -> Self {
-        let design = design.into();
-        let (_, plant, commands) = pair(&design);
-        Self {
-            structure: design.structure,
-            interface: plant,
-            commands,
-            icon: include_bytes!("../../modelDescription/uam_plant.png"),
-            text: text::PLANT,
-        }
+        let [_, plant] = Self::pair(design);
+        plant
     }
-}
-
-/// Controller, plant, and what goes from the one to the other.
-fn pair(design: &Design) -> (Interface, Interface, Vec<String>) {
-    let (controller, plant) = (Interface::of::<ControllerUnit>(design), Interface::of::<PlantUnit>(design));
-    let commands = controller.outputs_for(&plant).map(|output| output.name.clone()).collect();
-    (controller, plant, commands)
 }

@@ -36,6 +36,34 @@ pub fn tall_element<'a>(
         .fold(xml.create_element(name), |element, attribute| element.new_line().with_attribute(attribute))
 }
 
+/// An element that holds an element for each of these.
+pub fn list<T>(
+    xml: &mut Xml,
+    name: &str,
+    items: impl IntoIterator<Item = T>,
+    mut write: impl FnMut(&mut Xml, T) -> io::Result<()>,
+) -> io::Result<()> {
+    xml.create_element(name).holding(|xml| items.into_iter().try_for_each(|item| write(xml, item)))
+}
+
+/// How an element ends.
+pub trait Ending {
+    /// Without content.
+    fn empty(self) -> io::Result<()>;
+    /// Behind the content that is written by this.
+    fn holding(self, content: impl FnOnce(&mut Xml) -> io::Result<()>) -> io::Result<()>;
+}
+
+impl Ending for ElementWriter<'_, Vec<u8>> {
+    fn empty(self) -> io::Result<()> {
+        self.write_empty().map(|_| ())
+    }
+
+    fn holding(self, content: impl FnOnce(&mut Xml) -> io::Result<()>) -> io::Result<()> {
+        self.write_inner_content(content).map(|_| ())
+    }
+}
+
 /// The shortest spelling that is read back as the same number.
 pub fn number(value: f64) -> Cow<'static, str> {
     value.to_string().into()
@@ -44,6 +72,11 @@ pub fn number(value: f64) -> Cow<'static, str> {
 /// An integer in decimal digits.
 pub fn integer(value: i32) -> Cow<'static, str> {
     value.to_string().into()
+}
+
+/// A truth value.
+pub fn truth(value: bool) -> &'static str {
+    if value { "true" } else { "false" }
 }
 
 /// The exponents of a unit's base units other than 0, as attributes of a `BaseUnit` element.
@@ -67,8 +100,7 @@ mod tests {
 
     #[test]
     fn what_has_a_meaning_in_xml_is_escaped() {
-        let text =
-            document("test", |xml| xml.create_element("a").with_attribute(("b", "<\"&'>")).write_empty().map(|_| ()));
+        let text = document("test", |xml| xml.create_element("a").with_attribute(("b", "<\"&'>")).empty());
         let text = text.unwrap();
         let parsed = roxmltree::Document::parse(&text).unwrap();
         assert_eq!(parsed.root_element().attribute("b"), Some("<\"&'>"));

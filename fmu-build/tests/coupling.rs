@@ -91,8 +91,7 @@ fn instances_do_not_disturb_each_other() {
 fn an_instance_can_be_reset_and_run_again() {
     let mut plant = common::pair().plant.instantiate("again").unwrap();
     let mut run = || {
-        plant.enter_initialization(0.0, 1.0).unwrap();
-        plant.exit_initialization().unwrap();
+        plant.initialize(0.0, 1.0).unwrap();
         plant.set_value("joint[1].rate_command", Value::Real(0.3)).unwrap();
         for n in 0..10 {
             plant.do_step(f64::from(n) * 0.01, 0.01).unwrap();
@@ -114,8 +113,8 @@ fn the_units_own_words_come_back_as_errors() {
     assert!(order.contains("plant: fmi2DoStep answers fmi2Error"), "{order}");
 
     let mut plant = pair.plant.instantiate("plant").unwrap();
-    let mass = plant.set_value("uav.mass", Value::Real(-1.0)).and_then(|()| plant.enter_initialization(0.0, 1.0));
-    let mass = mass.and_then(|()| plant.exit_initialization()).unwrap_err().to_string();
+    let mass = plant.set_value("uav.mass", Value::Real(-1.0)).and_then(|()| plant.initialize(0.0, 1.0));
+    let mass = mass.unwrap_err().to_string();
     assert!(mass.contains("uav.mass") && mass.contains("-1"), "{mass}");
 }
 
@@ -146,8 +145,7 @@ fn a_saved_state_brings_an_instance_back_also_as_bytes() {
     let [mut plant, mut other] = ["plant", "other"].map(|name| pair.plant.instantiate(name).unwrap());
     assert!(plant.restore().is_err(), "nothing is saved");
     for unit in [&mut plant, &mut other] {
-        unit.enter_initialization(0.0, 1.0).unwrap();
-        unit.exit_initialization().unwrap();
+        unit.initialize(0.0, 1.0).unwrap();
     }
     plant.set_value("joint[1].rate_command", Value::Real(0.5)).unwrap();
     plant.do_step(0.0, 0.1).unwrap();

@@ -16,7 +16,7 @@ use uam::variables::Causality;
 /// Runs `check` on every unit of every structure with its parsed model description.
 fn for_every_unit(check: impl Fn(&Interface, Node<'_, '_>)) {
     for structure in Structure::all() {
-        for unit in [Unit::controller(structure), Unit::plant(structure)] {
+        for unit in Unit::pair(structure) {
             let text = model_description(&unit.interface).unwrap();
             let document = Document::parse(&text).unwrap();
             check(&unit.interface, document.root_element());
@@ -170,7 +170,7 @@ fn no_output_depends_on_an_input_and_initial_unknowns_depend_on_parameters() {
 fn flat_names_are_identifiers_and_unique() {
     for structure in Structure::all() {
         let flat = Design { naming: Naming::Flat, ..structure.into() };
-        for unit in [Unit::controller(flat.clone()), Unit::plant(flat)] {
+        for unit in Unit::pair(flat) {
             let text = model_description(&unit.interface).unwrap();
             let document = Document::parse(&text).unwrap();
             assert_eq!(document.root_element().attribute("variableNamingConvention"), Some("flat"));
@@ -189,9 +189,7 @@ fn every_structure_of_every_unit_has_its_own_identity() {
     let mut seen = BTreeSet::new();
     for structure in Structure::all() {
         let flat = Design { naming: Naming::Flat, ..structure.into() };
-        let [structured, flat] =
-            [structure.into(), flat].map(|design| [Unit::controller(design.clone()), Unit::plant(design)]);
-        for unit in structured.into_iter().chain(flat) {
+        for unit in [structure.into(), flat].into_iter().flat_map(Unit::pair) {
             assert!(seen.insert(unit.interface.guid.clone()), "{} {structure}", unit.interface.identifier);
         }
     }

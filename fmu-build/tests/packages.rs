@@ -28,7 +28,8 @@ fn pack_system(plant: &Unit, controller: &Unit) -> Vec<u8> {
 }
 
 fn system(structure: Structure) -> Vec<u8> {
-    pack_system(&Unit::plant(structure), &Unit::controller(structure))
+    let [controller, plant] = Unit::pair(structure);
+    pack_system(&plant, &controller)
 }
 
 fn names(archive: &[u8]) -> Vec<String> {
@@ -89,7 +90,7 @@ fn every_platform_has_its_library_where_importers_look() {
 
 #[test]
 fn the_picture_is_a_png_of_100_by_100() {
-    for unit in [Unit::plant(Structure::DEFAULT), Unit::controller(Structure::DEFAULT)] {
+    for unit in Unit::pair(Structure::DEFAULT) {
         assert_eq!(unit.icon[..8], *b"\x89PNG\r\n\x1a\n");
         assert_eq!(unit.icon[12..24], *b"IHDR\0\0\0\x64\0\0\0\x64");
     }
@@ -98,7 +99,7 @@ fn the_picture_is_a_png_of_100_by_100() {
 #[test]
 fn the_page_shows_every_variable_and_every_alternative() {
     for structure in Structure::all() {
-        for unit in [Unit::plant(structure), Unit::controller(structure)] {
+        for unit in Unit::pair(structure) {
             let html = page(&unit);
             for variable in &unit.interface.variables {
                 assert!(html.contains(&format!("<code>{}</code>", variable.name)), "{}", variable.name);
@@ -113,7 +114,7 @@ fn the_page_shows_every_variable_and_every_alternative() {
 #[test]
 fn the_page_has_picture_and_formulas_and_needs_nothing_from_elsewhere() {
     for structure in Structure::all() {
-        for unit in [Unit::plant(structure), Unit::controller(structure)] {
+        for unit in Unit::pair(structure) {
             let html = page(&unit);
             assert!(html.contains("<svg") && html.matches("<math").count() > 30, "{structure}");
             assert!(!html.contains("merror"), "a formula cannot be read");
@@ -196,8 +197,7 @@ fn the_sources_that_the_system_names_are_in_the_archive() {
 
 #[test]
 fn the_parameter_set_serves_both_units_and_repeats_their_start_values() {
-    let controller = Unit::controller(Structure::DEFAULT);
-    let plant = Unit::plant(Structure::DEFAULT);
+    let [controller, plant] = Unit::pair(Structure::DEFAULT);
     let ssv = text(&pack_system(&plant, &controller), "resources/uam.ssv");
     let document = Document::parse(&ssv).unwrap();
     let parameters: Vec<_> = document.descendants().filter(|node| node.tag_name().name() == "Parameter").collect();

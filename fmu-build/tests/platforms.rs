@@ -154,8 +154,7 @@ const TRIALS: [Trial; 2] = [
 impl Trial {
     fn end(&self, pair: &Pair) -> Vec<f64> {
         let mut unit = (self.fmu)(pair).instantiate("unit").unwrap();
-        unit.enter_initialization(0.0, 2.0).unwrap();
-        unit.exit_initialization().unwrap();
+        unit.initialize(0.0, 2.0).unwrap();
         unit.set_value(self.input, Value::Real(0.5)).unwrap();
         (0..1000).for_each(|n| unit.do_step(f64::from(n) * 1e-3, 1e-3).unwrap());
         let values = self.outputs.map(|name| unit.value(name).unwrap());

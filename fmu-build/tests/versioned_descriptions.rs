@@ -19,7 +19,7 @@ fn versioned_model_descriptions_are_up_to_date() {
     if env::var_os(REGENERATE).is_some() {
         write_descriptions(&folder).unwrap();
     }
-    for unit in [Unit::controller(Structure::DEFAULT), Unit::plant(Structure::DEFAULT)] {
+    for unit in Unit::pair(Structure::DEFAULT) {
         let name = format!("{}.xml", unit.interface.identifier);
         let versioned = fs::read_to_string(folder.join(&name)).unwrap();
         let line = |text: &str, number: usize| text.lines().nth(number).unwrap_or("(nothing)").to_owned();

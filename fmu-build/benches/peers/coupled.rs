@@ -21,18 +21,13 @@ const METHODS: [(Discretization, Resolution); 4] = [
     (Discretization::Exact, Resolution::ExtendedJacobian),
 ];
 
-fn start(unit: &mut Instance) {
-    unit.enter_initialization(0.0, DURATION).unwrap();
-    unit.exit_initialization().unwrap();
-}
-
 /// Joint rates and grasp go from the controller to the plant, and nothing back: seconds per simulated second.
 fn commands_only(controller: &mut Instance, plant: &mut Instance) -> f64 {
     let names = ["joint[1].rate_command", "joint[2].rate_command", "joint[3].rate_command", "grasp"];
     let [from, to] = [&*controller, &*plant].map(|unit| Selection::new(unit.description(), names).unwrap());
     let mut values = from.values();
-    start(controller);
-    start(plant);
+    controller.initialize(0.0, DURATION).unwrap();
+    plant.initialize(0.0, DURATION).unwrap();
     let begin = Instant::now();
     for n in 0..STEPS {
         let t = f64::from(n) * STEP;

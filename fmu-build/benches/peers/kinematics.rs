@@ -79,8 +79,7 @@ impl Pinocchio {
         for (i, rate) in self.solve(0.0, 1).into_iter().enumerate() {
             plant.set_value(&format!("joint[{}].rate_command", i + 1), Value::Real(rate)).unwrap();
         }
-        plant.enter_initialization(0.0, 1.0).unwrap();
-        plant.exit_initialization().unwrap();
+        plant.initialize(0.0, 1.0).unwrap();
         plant.do_step(0.0, 1e-8).unwrap();
         let miss = ["end_effector.vx", "end_effector.vy"].into_iter().zip(WANTED).map(|(name, wanted)| {
             let Value::Real(found) = plant.value(name).unwrap() else { panic!("{name} is a real number") };
@@ -114,8 +113,7 @@ pub fn by_fmu(controller: &mut Instance) -> f64 {
     let names = [1, 2, 3].map(|joint| format!("joint[{joint}].rate_command"));
     let rates = Selection::new(controller.description(), names.iter().map(String::as_str)).unwrap();
     let mut seen = rates.values();
-    controller.enter_initialization(0.0, f64::from(STEPS) * STEP).unwrap();
-    controller.exit_initialization().unwrap();
+    controller.initialize(0.0, f64::from(STEPS) * STEP).unwrap();
     let begin = Instant::now();
     for n in 0..STEPS {
         controller.do_step(f64::from(n) * STEP, STEP).unwrap();

@@ -7,6 +7,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a benchmark that cannot start has nothing to say")]
 use std::path::{Path, PathBuf};
 
+use clap::Parser;
 use fmu_build::coupling::Pair;
 use fmu_build::{BuildOptions, build};
 use uam::Structure;
@@ -22,13 +23,20 @@ mod table;
 use measure::{Contest, Spread, measure};
 use table::Page;
 
-const ROUNDS: usize = 15;
+/// Measures both units beside other programs, and prints tables.
+#[derive(Parser)]
+struct Arguments {
+    /// How often everything is measured
+    #[arg(long, value_name = "NUMBER", default_value_t = 15, value_parser = clap::value_parser!(u32).range(1..))]
+    rounds: u32,
+    /// Cargo says so to every benchmark
+    #[arg(long, hide = true)]
+    bench: bool,
+}
 
 fn main() {
-    let rounds = rounds(std::env::args().skip(1)).unwrap_or_else(|complaint| {
-        eprintln!("error: {complaint}");
-        std::process::exit(2)
-    });
+    let Arguments { rounds, .. } = Arguments::parse();
+    let rounds = rounds as usize;
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("peers");
     let built = build(&BuildOptions::new(Structure::DEFAULT, &folder), &|_| {}).unwrap();
     let pair = Pair::open(&built.controller, &built.plant).unwrap();
@@ -50,16 +58,4 @@ fn main() {
     let place = std::env::var_os("PEERS").map_or(folder, PathBuf::from).join("peers.md");
     std::fs::write(&place, page.text()).unwrap();
     println!("Written: {}", place.display());
-}
-
-/// The number of rounds that the command line asks for. Cargo adds `--bench`.
-fn rounds(arguments: impl Iterator<Item = String>) -> Result<usize, String> {
-    let mut arguments = arguments.filter(|argument| argument != "--bench");
-    match (arguments.next().as_deref(), arguments.next(), arguments.next()) {
-        (None, ..) => Ok(ROUNDS),
-        (Some("--rounds"), Some(number), None) => {
-            number.parse().ok().filter(|&number| number > 0).ok_or(format!("there cannot be {number} rounds"))
-        }
-        (Some(argument), ..) => Err(format!("there is no option `{argument}`; there is --rounds N")),
-    }
 }

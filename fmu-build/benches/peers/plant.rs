@@ -156,8 +156,7 @@ fn by_fmu(plant: &mut Instance, motion: &Motion) -> (Place, f64) {
     for (i, rate) in motion.unwrap_or_default().into_iter().enumerate() {
         assert!(rates.put(&mut given, i, Value::Real(rate)));
     }
-    plant.enter_initialization(0.0, f64::from(STEPS) * STEP).unwrap();
-    plant.exit_initialization().unwrap();
+    plant.initialize(0.0, f64::from(STEPS) * STEP).unwrap();
     let begin = Instant::now();
     for n in 0..STEPS {
         plant.set(&rates, &given).unwrap();

@@ -6,6 +6,7 @@ use std::time::Instant;
 
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SupportedConeT, ZeroConeT};
+use fastrand::Rng;
 use uam::qp::{FREE, Outcome, Place, Places, Problem, Solution, solve};
 
 use crate::library::{function, open};
@@ -35,13 +36,12 @@ struct Case {
     places: Places,
 }
 
-/// Numbers from -1 to 1 (D. E. Knuth's linear congruential generator).
-struct Random(u64);
+/// Numbers from -1 to 1.
+struct Random(Rng);
 
 impl Random {
     fn number(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+        2.0 * self.0.f64() - 1.0
     }
 
     fn numbers(&mut self, count: usize) -> Vec<f64> {
@@ -74,7 +74,7 @@ fn case(random: &mut Random, n: usize) -> Case {
 
 /// Problems in which a limit binds.
 fn cases(n: usize) -> Vec<Case> {
-    let mut random = Random(n as u64);
+    let mut random = Random(Rng::with_seed(n as u64));
     let mut cases = Vec::with_capacity(COUNT);
     while cases.len() < COUNT {
         let mut case = case(&mut random, n);

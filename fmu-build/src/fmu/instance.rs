@@ -127,6 +127,15 @@ impl Instance {
         self.call("fmi2ExitInitializationMode", |f, c| unsafe { (f.exit_initialization)(c) })
     }
 
+    /// Enters and leaves initialization mode: for units with nothing to be set in between.
+    ///
+    /// # Errors
+    /// If the unit refuses.
+    pub fn initialize(&mut self, start: f64, stop: f64) -> Result<(), Error> {
+        self.enter_initialization(start, stop)?;
+        self.exit_initialization()
+    }
+
     /// Advances from `time` by `step`.
     ///
     /// # Errors

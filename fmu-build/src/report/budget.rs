@@ -1,11 +1,12 @@
 //! The report of the error budget: errors over the communication step, orders, and what that means for users.
 
 use comfy_table::presets::UTF8_FULL_CONDENSED;
-use maud::{Markup, PreEscaped, html};
+use maud::{Markup, html};
 use uam::parameters::Discretization;
 use uam::scenarios::Scenario;
 
 use super::chart::{self, Across, Panel, Scale};
+use super::panels::panels;
 use super::{Error, Paint, page};
 use crate::budget::{Curve, EULER, Errors, Pilot, STEPS, Variant, observed_order};
 use crate::coupling::Order;
@@ -100,8 +101,8 @@ pub fn html(scenario: &Scenario, curves: &[Curve]) -> Result<String, Error> {
         &html! {
             p {
                 "Largest errors over the " (scenario.duration) " s of " (scenario.id) " (" (scenario.title) "), with "
-                code { "ik.sample_time" } " equal to the communication step. The controller measures nothing "
-                "(" code { "ik.feedback" } " = none): its own prediction is all that it knows."
+                code { "ik.sample_time" } " equal to the communication step. The controller measures nothing: "
+                "its own prediction is all that it knows."
             }
             @for figure in figures { (figure) }
             section {
@@ -128,7 +129,8 @@ fn figure(curves: &[Curve], measure: &Measure) -> Result<Markup, Error> {
         let known = pilot != Pilot::Sampled && order != Order::PlantFirst;
         curve.variant == EULER || (discretization == Discretization::Exact && known)
     };
-    let paints = COLOURS.into_iter().map(|rgb| Paint { rgb, width: 4 });
+    // The colours come again where there are more curves.
+    let paints = COLOURS.into_iter().cycle().map(|rgb| Paint { rgb, width: 4 });
     let shown: Vec<(&Curve, Paint)> = curves.iter().filter(apart).zip(paints).collect();
     let line = |(curve, paint): &(&Curve, Paint)| chart::Curve { paint: *paint, points: curve.of(measure.of) };
     let panel = Panel {
@@ -138,14 +140,13 @@ fn figure(curves: &[Curve], measure: &Measure) -> Result<Markup, Error> {
         curves: shown.iter().rev().map(line).collect(),
         marks: Vec::new(),
     };
+    let names: Vec<String> = shown.iter().map(|(curve, _)| curve.variant.name()).collect();
+    let legend: Vec<_> = shown.iter().zip(&names).map(|((_, paint), name)| (*paint, name.as_str())).collect();
     Ok(html! {
         section {
             figure {
                 h2 { (measure.title) }
-                div.legend {
-                    @for (curve, paint) in &shown { span style={ "--paint:" (paint.css()) } { (curve.variant.name()) } }
-                }
-                div.panels.one { (PreEscaped(panel.svg(1120)?)) }
+                (panels(&legend, &[panel])?)
                 (table(&head("largest error [m]"), &rows(curves, measure)))
                 figcaption {
                     "Both axes are logarithmic. The order is the power of the step with which the error grows, where it is "

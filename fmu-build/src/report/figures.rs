@@ -1,12 +1,12 @@
 //! The figures of a report: what is drawn, and how to read it.
 
-use maud::{Markup, PreEscaped, html};
+use maud::{Markup, html};
 use uam::controller::Status;
 use uam::options::Choice;
 use uam::parameters::Balance;
 
 use super::chart::{Curve, Panel, Scale, TIME};
-use super::{Error, Series, arm};
+use super::{Error, Series, arm, panels};
 use crate::claims::LOST;
 
 /// What a figure is about.
@@ -245,18 +245,6 @@ fn marks(series: &[Series<'_>]) -> Vec<(f64, &'static str)> {
 }
 
 fn grid(series: &[Series<'_>], panels: &[Panel]) -> Result<Markup, Error> {
-    let (class, width) = match panels.len() {
-        1 => ("panels one", 1120),
-        2 | 4 => ("panels two", 550),
-        _ => ("panels three", 362),
-    };
-    let drawings = panels.iter().map(|panel| panel.svg(width)).collect::<Result<Vec<_>, _>>()?;
-    Ok(html! {
-        @if series.len() > 1 {
-            div.legend {
-                @for series in series { span style={ "--paint:" (series.paint.css()) } { (series.label) } }
-            }
-        }
-        div class=(class) { @for drawing in drawings { (PreEscaped(drawing)) } }
-    })
+    let names: Vec<_> = series.iter().map(|series| (series.paint, series.label)).collect();
+    panels::panels(&names, panels)
 }

@@ -1,10 +1,11 @@
 //! The report on how far the arm reaches.
 
-use maud::{PreEscaped, html};
+use maud::html;
 use uam::options::Choice;
 use uam::scenarios::Scenario;
 
 use super::chart::{Across, Curve, Panel, Scale};
+use super::panels::panels;
 use super::{Error, Figure, Report, Topic, style};
 use crate::claims::DISCRETIZATIONS;
 use crate::claims::{Cell, Row, Table};
@@ -58,17 +59,11 @@ pub fn report(scenarios: &[Scenario], results: &[Reach], changes: &str) -> Resul
             marks: marks.into_iter().filter_map(|(i, word)| Some((1e3 * MOTIONS.get(i)?.thesis, word))).collect(),
         }
     };
-    let drawings = [panel(0).svg(550)?, panel(2).svg(550)?];
+    let names = [(style::MAIN, "counterweight locked"), (style::OTHER, "counterweight moving")];
     let figure = Figure {
         topic: Topic::Reach,
         title: "What the way costs".to_owned(),
-        body: html! {
-            div.legend {
-                span style={ "--paint:" (style::MAIN.css()) } { "counterweight locked" }
-                span style={ "--paint:" (style::OTHER.css()) } { "counterweight moving" }
-            }
-            div.panels.two { @for drawing in drawings { (PreEscaped(drawing)) } }
-        },
+        body: panels(&names, &[panel(0), panel(2)])?,
         caption: format!(
             "Left: without payload (thesis 3.8); right: with payload (4.4). Largest moment on the UAV over the way, \
              up to where the path gives way; discretization {}. Dashed: how far the thesis gets.",

@@ -4,7 +4,7 @@ use std::io;
 
 use uam::unit::Unit;
 
-use crate::xml::{self, Xml};
+use crate::xml::{self, Ending, Xml};
 
 /// Name space of what all documents of the SSP standard share.
 pub const SSC: &str = "http://ssp-standard.org/SSP1/SystemStructureCommon";
@@ -15,14 +15,9 @@ pub const SSV: &str = "http://ssp-standard.org/SSP1/SystemStructureParameterValu
 
 /// Definitions of units, inside the element `name`.
 pub fn write_units(xml: &mut Xml, name: &str, units: &[&Unit]) -> io::Result<()> {
-    xml.create_element(name).write_inner_content(|xml| {
-        for unit in units {
-            xml.create_element("ssc:Unit").with_attribute(("name", unit.name)).write_inner_content(|xml| {
-                xml.create_element("ssc:BaseUnit").with_attributes(xml::base_exponents(unit)).write_empty()?;
-                Ok(())
-            })?;
-        }
-        Ok(())
-    })?;
-    Ok(())
+    xml::list(xml, name, units, |xml, unit| {
+        xml.create_element("ssc:Unit")
+            .with_attribute(("name", unit.name))
+            .holding(|xml| xml.create_element("ssc:BaseUnit").with_attributes(xml::base_exponents(unit)).empty())
+    })
 }

@@ -6,7 +6,7 @@ use super::{Component, common, shared_parameters};
 use crate::error::Result;
 use crate::interface::{Value, Variable, units_of};
 use crate::metadata;
-use crate::xml::{self, Xml, number};
+use crate::xml::{self, Ending, Xml, integer, number};
 
 /// Path of the parameter set inside the SSP.
 pub const SOURCE: &str = "resources/uam.ssv";
@@ -36,13 +36,10 @@ pub fn set(name: &str, description: &str, parameters: &[&Variable]) -> Result<St
             ("description", description),
             ("generationTool", metadata::GENERATION_TOOL),
         ];
-        xml::tall_element(xml, "ssv:ParameterSet", attributes).write_inner_content(|xml| {
-            xml.create_element("ssv:Parameters").write_inner_content(|xml| {
-                parameters.iter().try_for_each(|parameter| write_parameter(xml, parameter))
-            })?;
+        xml::tall_element(xml, "ssv:ParameterSet", attributes).holding(|xml| {
+            xml::list(xml, "ssv:Parameters", parameters, |xml, parameter| write_parameter(xml, parameter))?;
             common::write_units(xml, "ssv:Units", &units_of(parameters.iter().copied()))
-        })?;
-        Ok(())
+        })
     })
 }
 
@@ -51,26 +48,17 @@ fn write_parameter(xml: &mut Xml, parameter: &Variable) -> io::Result<()> {
         .create_element("ssv:Parameter")
         .with_attribute(("name", parameter.name.as_str()))
         .with_attribute(("description", parameter.description.as_str()));
-    element.write_inner_content(|xml| {
+    element.holding(|xml| {
         match parameter.value {
-            Value::Real { unit, start, .. } => {
-                xml.create_element("ssv:Real")
-                    .with_attribute(("value", number(start)))
-                    .with_attribute(("unit", unit.name))
-                    .write_empty()?;
-            }
-            Value::Boolean { start } => {
-                xml.create_element("ssv:Boolean")
-                    .with_attribute(("value", if start { "true" } else { "false" }))
-                    .write_empty()?;
-            }
+            Value::Real { unit, start, .. } => xml
+                .create_element("ssv:Real")
+                .with_attribute(("value", number(start)))
+                .with_attribute(("unit", unit.name)),
+            Value::Boolean { start } => xml.create_element("ssv:Boolean").with_attribute(("value", xml::truth(start))),
             Value::Enumeration { start, .. } => {
-                xml.create_element("ssv:Integer")
-                    .with_attribute(("value", start.to_string().as_str()))
-                    .write_empty()?;
+                xml.create_element("ssv:Integer").with_attribute(("value", integer(start)))
             }
         }
-        Ok(())
-    })?;
-    Ok(())
+        .empty()
+    })
 }

@@ -9,7 +9,7 @@ use crate::design::Experiment;
 use crate::error::Result;
 use crate::interface::{Value, Variable, units_of};
 use crate::metadata;
-use crate::xml::{self, Xml, number};
+use crate::xml::{self, Ending, Xml, number};
 
 /// Name space of OMSimulator's annotations.
 const OMS: &str = "https://raw.githubusercontent.com/OpenModelica/OMSimulator/master/schema/oms.xsd";
@@ -36,12 +36,11 @@ pub fn system_structure(components: &[Component<'_>; 2]) -> Result<String> {
             ("license", metadata::LICENSE),
             ("generationTool", metadata::GENERATION_TOOL),
         ];
-        xml::tall_element(xml, "ssd:SystemStructureDescription", attributes).write_inner_content(|xml| {
+        xml::tall_element(xml, "ssd:SystemStructureDescription", attributes).holding(|xml| {
             write_system(xml, components, &connections, experiment)?;
             common::write_units(xml, "ssd:Units", &units)?;
             write_default_experiment(xml, experiment)
-        })?;
-        Ok(())
+        })
     })
 }
 
@@ -54,31 +53,23 @@ fn write_system(
     xml.create_element("ssd:System")
         .with_attribute(("name", "uam"))
         .with_attribute(("description", "Aerial manipulator: inverse kinematics and plant"))
-        .write_inner_content(|xml| {
-            xml.create_element("ssd:Elements").write_inner_content(|xml| {
-                components.iter().try_for_each(|component| write_component(xml, component, connections))
-            })?;
-            xml.create_element("ssd:Connections").write_inner_content(|xml| {
-                connections.iter().try_for_each(|connection| write_connection(xml, connection))
-            })?;
+        .holding(|xml| {
+            xml::list(xml, "ssd:Elements", components, |xml, component| write_component(xml, component, connections))?;
+            xml::list(xml, "ssd:Connections", connections, write_connection)?;
             // OMSimulator ends abruptly when it finds a system without a master.
             write_annotation(xml, "org.openmodelica", |xml| {
-                xml.create_element("oms:Annotations").write_inner_content(|xml| {
-                    xml.create_element("oms:SimulationInformation").write_inner_content(|xml| {
+                xml.create_element("oms:Annotations").holding(|xml| {
+                    xml.create_element("oms:SimulationInformation").holding(|xml| {
                         xml.create_element("oms:FixedStepMaster")
                             .with_attribute(("description", "oms-ma"))
                             .with_attribute(("stepSize", number(experiment.step_size)))
                             .with_attribute(("absoluteTolerance", "0.0001"))
                             .with_attribute(("relativeTolerance", "0.0001"))
-                            .write_empty()?;
-                        Ok(())
-                    })?;
-                    Ok(())
-                })?;
-                Ok(())
+                            .empty()
+                    })
+                })
             })
-        })?;
-    Ok(())
+        })
 }
 
 fn write_component(xml: &mut Xml, component: &Component<'_>, connections: &[Connection<'_>]) -> io::Result<()> {
@@ -88,19 +79,13 @@ fn write_component(xml: &mut Xml, component: &Component<'_>, connections: &[Conn
         .with_attribute(("type", "application/x-fmu-sharedlibrary"))
         .with_attribute(("source", component.source().as_str()))
         .with_attribute(("implementation", "CoSimulation"))
-        .write_inner_content(|xml| {
-            xml.create_element("ssd:Connectors").write_inner_content(|xml| {
-                connectors(component, connections).try_for_each(|(kind, variable)| write_connector(xml, kind, variable))
-            })?;
-            xml.create_element("ssd:ParameterBindings").write_inner_content(|xml| {
-                xml.create_element("ssd:ParameterBinding")
-                    .with_attribute(("source", parameters::SOURCE))
-                    .write_empty()?;
-                Ok(())
-            })?;
-            Ok(())
-        })?;
-    Ok(())
+        .holding(|xml| {
+            let connectors = connectors(component, connections);
+            xml::list(xml, "ssd:Connectors", connectors, |xml, (kind, variable)| write_connector(xml, kind, variable))?;
+            xml.create_element("ssd:ParameterBindings").holding(|xml| {
+                xml.create_element("ssd:ParameterBinding").with_attribute(("source", parameters::SOURCE)).empty()
+            })
+        })
 }
 
 /// The connectors of a component with their kinds.
@@ -128,19 +113,18 @@ fn write_connector(xml: &mut Xml, kind: &str, variable: &Variable) -> io::Result
         .with_attribute(("name", variable.name.as_str()))
         .with_attribute(("kind", kind))
         .with_attribute(("description", variable.description.as_str()))
-        .write_inner_content(|xml| {
+        .holding(|xml| {
             match variable.value {
                 Value::Real { unit, .. } => {
-                    xml.create_element("ssc:Real").with_attribute(("unit", unit.name)).write_empty()?;
+                    xml.create_element("ssc:Real").with_attribute(("unit", unit.name)).empty()?;
                 }
                 Value::Boolean { .. } => {
-                    xml.create_element("ssc:Boolean").write_empty()?;
+                    xml.create_element("ssc:Boolean").empty()?;
                 }
                 Value::Enumeration { .. } => {}
             }
             Ok(())
-        })?;
-    Ok(())
+        })
 }
 
 fn write_connection(xml: &mut Xml, connection: &Connection<'_>) -> io::Result<()> {
@@ -151,33 +135,26 @@ fn write_connection(xml: &mut Xml, connection: &Connection<'_>) -> io::Result<()
             ("endElement", connection.to),
             ("endConnector", connection.name),
         ])
-        .write_empty()?;
-    Ok(())
+        .empty()
 }
 
 fn write_default_experiment(xml: &mut Xml, experiment: Experiment) -> io::Result<()> {
     xml.create_element("ssd:DefaultExperiment")
         .with_attribute(("startTime", number(metadata::START_TIME)))
         .with_attribute(("stopTime", number(experiment.stop_time)))
-        .write_inner_content(|xml| {
+        .holding(|xml| {
             write_annotation(xml, "com.opensimulationplatform", |xml| {
-                xml.create_element("osp:Algorithm").write_inner_content(|xml| {
+                xml.create_element("osp:Algorithm").holding(|xml| {
                     xml.create_element("osp:FixedStepAlgorithm")
                         .with_attribute(("baseStepSize", number(experiment.step_size)))
-                        .write_empty()?;
-                    Ok(())
-                })?;
-                Ok(())
+                        .empty()
+                })
             })
-        })?;
-    Ok(())
+        })
 }
 
 /// What is meant for one importer only.
 fn write_annotation(xml: &mut Xml, importer: &str, content: impl FnOnce(&mut Xml) -> io::Result<()>) -> io::Result<()> {
-    xml.create_element("ssd:Annotations").write_inner_content(|xml| {
-        xml.create_element("ssc:Annotation").with_attribute(("type", importer)).write_inner_content(content)?;
-        Ok(())
-    })?;
-    Ok(())
+    xml.create_element("ssd:Annotations")
+        .holding(|xml| xml.create_element("ssc:Annotation").with_attribute(("type", importer)).holding(content))
 }
