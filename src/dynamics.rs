@@ -22,7 +22,7 @@ use std::ops::Add;
 
 use nalgebra::{SVector, Vector3};
 
-pub use account::Account;
+pub use account::{Account, Carried, Outboard};
 pub use driven::{Driven, Torques};
 pub use instant::Instant;
 pub use law::Node;

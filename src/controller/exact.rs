@@ -13,7 +13,7 @@ use super::outset::Outset;
 use super::plan::Plan;
 use super::prediction::Prediction;
 use super::resolution::{Problem, Task};
-use crate::dynamics::{Account, Loads, Motion, Situation};
+use crate::dynamics::{Account, Carried, Loads, Motion, Situation};
 use crate::error::Result;
 use crate::parameters::Hold;
 use crate::planar::Vec2;
@@ -127,11 +127,11 @@ impl<const N: usize> Outset<N> {
     /// If it cannot be integrated.
     pub fn carry_out(&self, plan: &mut Plan<N>, t: f64, horizon: f64, end: &mut Prediction<N>) -> Result<f64> {
         let dynamics = &self.dynamics;
-        let mut impulse = 0.0;
         end.situation = self.now.situation;
-        dynamics.advance(&mut end.situation, &plan.motion, &Loads::CALM, t, horizon, Account::Carried(&mut impulse))?;
-        self.weigh(plan, impulse, horizon, end);
-        Ok(impulse)
+        let mut carried = Carried::none(&end.situation.node);
+        dynamics.advance(&mut end.situation, &plan.motion, &Loads::CALM, t, horizon, Account::Carried(&mut carried))?;
+        self.weigh(plan, carried.sum, horizon, end);
+        Ok(carried.sum)
     }
 
     /// Makes the angular momentum at the `end` follow from its situation, and the moment on the UAV that is left in the

@@ -64,7 +64,6 @@ impl<const N: usize> Dynamics<N> {
         let mut elapsed = 0.0;
         let mut stuck = false;
         let mut room = Load::NONE;
-        let mut step = Internal::none(flow, node);
         while elapsed < size {
             let left = size - elapsed;
             let scene = Scene {
@@ -75,8 +74,10 @@ impl<const N: usize> Dynamics<N> {
                 sampled: state.sampled,
                 motion: motion.after(elapsed),
             };
-            let k_1 = self.law(&flow, node, loads.present(elapsed, &mut room), &scene);
-            let longest = self.longest_internal_step(&flow, &k_1, node, motion, state.contact, size);
+            let step = account.next(self, node, loads);
+            (step.nodes[0], step.from) = (*node, flow);
+            step.rates[0] = self.law(&flow, node, loads.present(elapsed, &mut room), &scene);
+            let longest = self.longest_internal_step(step, motion, state.contact, size);
             let most = MOST_STEPS * longest.min(sample_time);
             if left > most {
                 return Err(Error::StepTooLong { size, most });
@@ -85,20 +86,20 @@ impl<const N: usize> Dynamics<N> {
             let piece = if until_sample < left - SAME_INSTANT { until_sample } else { left };
             let length = if piece > longest { piece / (piece / longest).ceil() } else { piece };
             let mut covered = length;
-            self.internal_step(&mut step, &flow, &k_1, node, length, &scene);
+            self.internal_step(step, length, &scene, node);
             // Right after switching, rounding must not switch back for ever.
-            let within = if stuck { None } else { self.switches_within(&flow, node, length, &scene, &step) };
+            let within = if stuck { None } else { self.switches_within(step, node, &scene) };
             if let Some(bracket) = within {
-                covered = self.switching_instant(&flow, &k_1, node, bracket, &scene);
-                self.internal_step(&mut step, &flow, &k_1, node, covered, &scene);
+                covered = self.switching_instant(step, bracket, &scene);
+                self.internal_step(step, covered, &scene, node);
                 state.contact = !state.contact;
             }
             stuck = covered == 0.0;
-            self.enter(&mut account, node, &step, covered, &scene);
+            flow = step.to;
+            account.made(self, node, loads);
             // The last piece ends the step, whatever the sum of the pieces rounds to.
             elapsed = if length == left && within.is_none() { size } else { elapsed + covered };
             until_sample -= covered;
-            (flow, *node) = (step.flow, step.end);
             if until_sample <= 0.0 && elapsed < size {
                 self.settle(state, &flow, node);
                 until_sample = self.sample(state, loads.present(elapsed, &mut room), t + elapsed);
@@ -115,10 +116,10 @@ impl<const N: usize> Dynamics<N> {
         self.settle(state, &flow, node);
         state.rate = motion.rate_after(size);
         let impulse = self.impulse(state, &momentum, &flow, node, loads, size);
-        if let Account::Carried(sum) = account
+        if let Account::Carried(carried) = account
             && self.carried_load_is_a_balance()
         {
-            *sum = state.momentum.z
+            carried.sum = state.momentum.z
                 - momentum.z
                 - impulse.torque
                 - loads.present(0.5 * size, &mut room).base_torque * size;
@@ -195,16 +196,8 @@ impl<const N: usize> Dynamics<N> {
     }
 
     /// The longest internal step that resolves autopilot, support and the turning of the links.
-    fn longest_internal_step(
-        &self,
-        flow: &Flow,
-        k_1: &Flow,
-        node: &Node<N>,
-        motion: &Motion<N>,
-        contact: bool,
-        size: f64,
-    ) -> f64 {
-        let vehicle = &self.vehicle;
+    fn longest_internal_step(&self, step: &Internal<N>, motion: &Motion<N>, contact: bool, size: f64) -> f64 {
+        let (vehicle, Internal { nodes: [node, _], from: flow, rates: [k_1, ..], .. }) = (&self.vehicle, step);
         let turning = self.turning(&motion.rate).max(self.turning(&motion.rate_after(size))) + TUMBLING * k_1[2].abs();
         let longest = LONGEST.min(RESOLUTION / turning.max(self.control_rate));
         if !contact {

@@ -28,56 +28,42 @@ impl<const N: usize> Dynamics<N> {
         self.gap_rate(turn, node, &velocity) < 0.0
     }
 
-    /// Length of an internal step, no longer than `size`, within which contact switches, or `None` if it
-    /// lasts, or stays away, all through `whole`, the step of length `size`.
+    /// Length of an internal step within which contact switches, or `None` if it lasts, or stays away, all through
+    /// `whole`, the step with the arm at `end` when it is over.
     #[inline]
-    pub(super) fn switches_within(
-        &self,
-        flow: &Flow,
-        node: &Node<N>,
-        size: f64,
-        scene: &Scene<'_, N>,
-        whole: &Internal<N>,
-    ) -> Option<f64> {
+    pub(super) fn switches_within(&self, whole: &Internal<N>, end: &Node<N>, scene: &Scene<'_, N>) -> Option<f64> {
         if !scene.held || self.support.stiffness == 0.0 {
             return None;
         }
-        let end = self.margin(&whole.flow, &whole.end, scene);
-        if end < -NO_GAP {
-            return Some(size);
+        let Internal { nodes: [begin, _], from, to, rates: [k_1, .., k_4], size, .. } = whole;
+        let margin = self.margin(to, end, scene);
+        if margin < -NO_GAP {
+            return Some(*size);
         }
         // Both ends lie on the same side; in between there may be a way across and back.
-        let start = self.margin(flow, node, scene).max(0.0);
+        let start = self.margin(from, begin, scene).max(0.0);
         let rate = |flow: &Flow, k: &Flow, node: &Node<N>| {
             scene.side() * self.gap_rate(self.arm_turn(flow), node, &k.fixed_rows::<3>(0).into())
         };
-        let [k_1, k_4] = &whole.slopes;
-        let dip = lowest([start, end], [rate(flow, k_1, node), rate(&whole.flow, k_4, &whole.end)], size)?;
-        (self.margin_after(dip, flow, k_1, node, scene) < -NO_GAP).then_some(dip)
+        let dip = lowest([start, margin], [rate(from, k_1, begin), rate(to, k_4, end)], *size)?;
+        (self.margin_after(dip, whole, scene) < -NO_GAP).then_some(dip)
     }
 
-    /// The instant within an internal step of length `size` at which contact switches.
+    /// The instant within the internal `step`, or one of length `size` with the same beginning, at which contact switches.
     #[cold]
-    pub(super) fn switching_instant(
-        &self,
-        flow: &Flow,
-        k_1: &Flow,
-        node: &Node<N>,
-        size: f64,
-        scene: &Scene<'_, N>,
-    ) -> f64 {
-        switching_instant(self.margin(flow, node, scene), size, &|length| {
-            self.margin_after(length, flow, k_1, node, scene)
-        })
+    pub(super) fn switching_instant(&self, step: &Internal<N>, size: f64, scene: &Scene<'_, N>) -> f64 {
+        let begin = self.margin(&step.from, &step.nodes[0], scene);
+        switching_instant(begin, size, &|length| self.margin_after(length, step, scene))
     }
 
-    /// [`Dynamics::margin`] after an internal step of this `length`.
+    /// [`Dynamics::margin`] after an internal step of this `length` that begins like `step`.
     #[cold]
     #[inline(never)]
-    fn margin_after(&self, length: f64, flow: &Flow, k_1: &Flow, node: &Node<N>, scene: &Scene<'_, N>) -> f64 {
-        let mut step = Internal::none(*flow, node);
-        self.internal_step(&mut step, flow, k_1, node, length, scene);
-        self.margin(&step.flow, &step.end, scene)
+    fn margin_after(&self, length: f64, step: &Internal<N>, scene: &Scene<'_, N>) -> f64 {
+        let mut step = step.clone();
+        let mut end = step.nodes[0];
+        self.internal_step(&mut step, length, scene, &mut end);
+        self.margin(&step.to, &end, scene)
     }
 
     /// Distance \[m\] from switching: positive while the present state of contact lasts.

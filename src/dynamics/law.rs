@@ -99,11 +99,6 @@ pub(super) struct Carrier {
     pub support: f64,
 }
 
-impl Carrier {
-    /// At rest.
-    pub const REST: Self = Self { turn: Turn::NONE, motion: Twist::ZERO, support: 0.0 };
-}
-
 /// What stays the same during an internal step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Scene<'a, const N: usize> {

@@ -4,64 +4,84 @@
 //! cheap. Methods of order 6 need twice as many instants; at the steps of a millisecond that a
 //! communication with a controller asks for, order 4 already leaves nothing but rounding.
 
-use super::Dynamics;
 use super::law::{Carrier, Flow, Node, Scene, turned};
+use super::{Dynamics, Load, Loads};
 
-/// Result of an internal step.
+/// An internal step, as far as it is of interest afterwards; only the arm at its end is kept elsewhere.
+#[derive(Debug, Clone)]
 pub(super) struct Internal<const N: usize> {
+    /// The arm at the beginning and in the middle.
+    pub nodes: [Node<N>; 2],
+    /// At the beginning.
+    pub from: Flow,
     /// At the end.
-    pub flow: Flow,
-    /// The arm in the middle.
-    pub middle: Node<N>,
-    /// The arm at the end.
-    pub end: Node<N>,
-    /// Rates of the flow at the beginning and, as seen by the last stage, at the end.
-    pub slopes: [Flow; 2],
-    /// The UAV at the beginning, in the middle and at the end, as the stages see it.
-    pub carrier: [Carrier; 3],
+    pub to: Flow,
+    /// Rates of the flow as the four stages see them.
+    pub rates: [Flow; 4],
+    /// When it begins, from the beginning of the loads \[s\].
+    pub elapsed: f64,
+    /// Its length \[s\].
+    pub size: f64,
+    /// Whether the payload is held.
+    pub held: bool,
 }
 
 impl<const N: usize> Internal<N> {
-    /// No time has passed; `node`: the arm.
-    pub fn none(flow: Flow, node: &Node<N>) -> Self {
-        let (slopes, carrier) = ([Flow::zeros(); 2], [Carrier::REST; 3]);
-        Self { flow, middle: *node, end: *node, slopes, carrier }
+    /// None yet; `node`: any arm.
+    pub fn none(node: &Node<N>) -> Self {
+        Self {
+            nodes: [*node; 2],
+            from: Flow::zeros(),
+            to: Flow::zeros(),
+            rates: [Flow::zeros(); 4],
+            elapsed: 0.0,
+            size: 0.0,
+            held: false,
+        }
     }
 }
 
 impl<const N: usize> Dynamics<N> {
-    /// One step of length `size` from `flow` with the rates `k_1`, where the arm is at `node`, under the motion of
-    /// `scene`; written to `step`.
-    pub(super) fn internal_step(
-        &self,
-        step: &mut Internal<N>,
-        flow: &Flow,
-        k_1: &Flow,
-        node: &Node<N>,
-        size: f64,
-        scene: &Scene<'_, N>,
-    ) {
+    /// One step of length `size` under the motion of `scene`, from where `step` says that it begins: flow and its rates
+    /// there, and the arm. The arm at the end is written to `end`, all else to `step`.
+    pub(super) fn internal_step(&self, step: &mut Internal<N>, size: f64, scene: &Scene<'_, N>, end: &mut Node<N>) {
         let half = 0.5 * size;
-        step.middle.follow(&self.vehicle, node, &scene.motion.way(half), scene.held, scene.motion.rate_after(half));
-        step.end.follow(&self.vehicle, node, &scene.motion.way(size), scene.held, scene.motion.rate_after(size));
-        let (middle, end) = (&step.middle, &step.end);
+        let [begin, middle] = &mut step.nodes;
+        middle.follow(&self.vehicle, begin, &scene.motion.way(half), scene.held, scene.motion.rate_after(half));
+        end.follow(&self.vehicle, begin, &scene.motion.way(size), scene.held, scene.motion.rate_after(size));
+        (step.elapsed, step.size, step.held) = (scene.elapsed, size, scene.held);
 
         let mut room = None;
         let [_, load_2, load_4] = scene.loads.at([scene.elapsed, size], &mut room);
 
-        let y_2 = after(flow, k_1, half);
-        let k_2 = self.law(&y_2, middle, load_2, scene);
-        let y_3 = after(flow, &k_2, half);
-        let k_3 = self.law(&y_3, middle, load_2, scene);
-        let y_4 = after(flow, &k_3, size);
-        let k_4 = self.law(&y_4, end, load_4, scene);
+        let (from, [k_1, k_2, k_3, k_4]) = (&step.from, &mut step.rates);
+        *k_2 = self.law(&after(from, k_1, half), middle, load_2, scene);
+        *k_3 = self.law(&after(from, k_2, half), middle, load_2, scene);
+        *k_4 = self.law(&after(from, k_3, size), end, load_4, scene);
         let sixth = size / 6.0;
-        step.flow = Flow::from_fn(|i, _| flow[i] + (k_1[i] + (k_2[i] + k_3[i]) * 2.0 + k_4[i]) * sixth);
-        turned(&mut step.flow, flow);
-        step.carrier[0] = self.carrier(flow, k_1);
-        step.carrier[1] = self.carrier(&mean(&y_2, &y_3), &mean(&k_2, &k_3));
-        step.carrier[2] = self.carrier(&y_4, &k_4);
-        step.slopes = [*k_1, k_4];
+        step.to = Flow::from_fn(|i, _| from[i] + (k_1[i] + (k_2[i] + k_3[i]) * 2.0 + k_4[i]) * sixth);
+        turned(&mut step.to, from);
+    }
+
+    /// Hands what the stages of `step` saw at the beginning, in the middle and at the end, where the arm is at `end`, to
+    /// `entry`, with the weight of each \[s\].
+    ///
+    /// By Simpson's rule, the stages in the middle taken together: of order 4 like the step itself.
+    #[inline]
+    pub(super) fn by_simpson(
+        &self,
+        step: &Internal<N>,
+        end: &Node<N>,
+        loads: &Loads,
+        mut entry: impl FnMut(&Node<N>, &Carrier, &Load, f64),
+    ) {
+        let Internal { nodes: [begin, middle], from, rates: [k_1, k_2, k_3, k_4], elapsed, size, .. } = step;
+        let mut room = None;
+        let [load_1, load_2, load_4] = loads.at([*elapsed, *size], &mut room);
+        let (y_2, y_3, y_4) = (after(from, k_1, 0.5 * size), after(from, k_2, 0.5 * size), after(from, k_3, *size));
+        entry(begin, &self.carrier(from, k_1), load_1, size / 6.0);
+        entry(middle, &self.carrier(&mean(&y_2, &y_3), &mean(k_2, k_3)), load_2, size * (2.0 / 3.0));
+        entry(end, &self.carrier(&y_4, k_4), load_4, size / 6.0);
     }
 }
 
@@ -96,7 +116,7 @@ mod tests {
             let size = 0.4 / f64::from(steps);
             let (mut flow, mut node) = (start.flow(BaseModel::Full), start.node);
             node.move_at(motion.rate);
-            let mut step = Internal::none(flow, &node);
+            let mut step = Internal::none(&node);
             let scene = Scene {
                 loads: &loads,
                 elapsed: 0.0,
@@ -106,9 +126,11 @@ mod tests {
                 motion,
             };
             for _ in 0..steps {
-                let k_1 = dynamics.law(&flow, &node, &loads.begin, &scene);
-                dynamics.internal_step(&mut step, &flow, &k_1, &node, size, &scene);
-                (flow, node) = (step.flow, step.end);
+                step.nodes[0] = node;
+                step.rates[0] = dynamics.law(&flow, &node, &loads.begin, &scene);
+                step.from = flow;
+                dynamics.internal_step(&mut step, size, &scene, &mut node);
+                flow = step.to;
             }
             flow
         };

@@ -3,14 +3,17 @@
 //! Whatever jumps at the beginning of a step, rates or a payload that is taken over, gives an impulse;
 //! means over the step contain it, instantaneous values would not. Newton's law for the UAV alone gives
 //! what the rest exerts on it, that for everything outboard of a joint the torque of its motor.
+//!
+//! They are worked out when a host asks for them: until then an [`Interval`] keeps what they follow from.
 
-use nalgebra::{SVector, Vector3};
+use nalgebra::SVector;
 
 use super::Outputs;
 use crate::autopilot::AutopilotMode;
-use crate::dynamics::{Account, Dynamics, Impulse, Load, Situation};
+use crate::bytes::{Memory, Tape};
+use crate::dynamics::{Account, Dynamics, Impulse, Load, Loads, Outboard, Situation};
 use crate::memory;
-use crate::momentum;
+use crate::momentum::outboard_momentum;
 use crate::planar::{Vec2, vec2};
 use crate::vehicle::Vehicle;
 
@@ -19,7 +22,7 @@ const SHORTEST: f64 = 1e-9;
 
 /// Mean forces and torques.
 #[derive(Debug, Clone, Copy)]
-struct Values<const N: usize> {
+pub(super) struct Means<const N: usize> {
     /// Thrust \[N\] and torque \[N m\] of the rotors.
     control: Vec2,
     /// Force on the UAV of all that it carries \[N\].
@@ -32,34 +35,15 @@ struct Values<const N: usize> {
     payload: Vec2,
 }
 
-memory!(Values<N> { control, force, moment, effort, payload });
-
-/// The last means, impulses since then, and the motion at that time.
-#[derive(Debug, Clone)]
-pub(super) struct Means<const N: usize> {
-    values: Values<N>,
-    impulse: Impulse,
-    /// Of what each coordinate moves, its motor excepted \[N m s, N s\]; see [`Account`].
-    outboard_impulse: SVector<f64, N>,
-    /// Since then \[s\].
-    time: f64,
-    /// Velocity of the UAV \[m/s, m/s, rad/s\].
-    velocity: Vector3<f64>,
-    /// Of what each coordinate moves \[N m s, N s\].
-    outboard: SVector<f64, N>,
-    /// Momentum of the held payload \[N s\].
-    payload: Vec2,
-}
-
-memory!(Means<N> { values, impulse, outboard_impulse, time, velocity, outboard, payload });
+memory!(Means<N> { control, force, moment, effort, payload });
 
 impl<const N: usize> Means<N> {
     /// Everything is at rest in `situation`, without payload, and the means are what keeps it so.
-    pub(super) fn at_rest(dynamics: &Dynamics<N>, situation: &Situation<N>) -> Self {
+    fn at_rest(dynamics: &Dynamics<N>, situation: &Situation<N>) -> Self {
         let (vehicle, node) = (&dynamics.vehicle, &situation.node);
         let weight = vec2(0.0, -node.matrix.mass * vehicle.gravity);
         let moment = -node.matrix.first.x * vehicle.gravity;
-        let values = Values {
+        Self {
             control: match dynamics.autopilot.mode {
                 AutopilotMode::Ideal => vec2(-weight.y, -moment),
                 AutopilotMode::Pid => vec2(-weight.y, 0.0),
@@ -69,21 +53,71 @@ impl<const N: usize> Means<N> {
             moment,
             effort: SVector::from_fn(|i, _| node.matrix.outboard_first[i].x * vehicle.gravity),
             payload: Vec2::zeros(),
-        };
-        Self {
-            values,
-            impulse: Impulse::NONE,
-            outboard_impulse: SVector::zeros(),
-            time: 0.0,
-            velocity: Vector3::zeros(),
-            outboard: SVector::zeros(),
-            payload: Vec2::zeros(),
         }
+    }
+
+    /// Writes them.
+    pub(super) fn write(&self, outputs: &mut Outputs) {
+        (outputs.thrust, outputs.torque) = (self.control.x, self.control.y);
+        outputs.transmitted_force = self.force;
+        outputs.transmitted_moment = self.moment;
+        outputs.effort[..N].copy_from_slice(self.effort.as_slice());
+        outputs.payload_force = self.payload;
+    }
+}
+
+/// What has happened since the last means were complete.
+#[derive(Debug, Clone)]
+pub(super) struct Interval<const N: usize> {
+    /// The means before it, if they have been asked for.
+    previous: Means<N>,
+    /// Its length so far \[s\].
+    time: f64,
+    /// Its beginning, with the motion just before.
+    before: Situation<N>,
+    impulse: Impulse,
+    outboard: Outboard<N>,
+}
+
+impl<const N: usize> Interval<N> {
+    /// At the start.
+    pub(super) fn at_rest(dynamics: &Dynamics<N>, situation: &Situation<N>) -> Self {
+        Self {
+            previous: Means::at_rest(dynamics, situation),
+            time: 0.0,
+            before: *situation,
+            impulse: Impulse::NONE,
+            outboard: Outboard::none(&situation.node),
+        }
+    }
+
+    /// A step of length `size` begins in `situation`, where the one before, under `loads`, has ended.
+    #[inline]
+    pub(super) fn begin(&mut self, dynamics: &Dynamics<N>, situation: &Situation<N>, loads: &Last<'_>, size: f64) {
+        if self.goes_on() {
+            let sum = self.outboard.total(dynamics, &situation.node, &loads.all);
+            self.outboard.restart(sum);
+            return;
+        }
+        if size < SHORTEST {
+            self.previous = self.means(dynamics, situation, loads);
+        }
+        self.restart(situation);
+    }
+
+    fn restart(&mut self, situation: &Situation<N>) {
+        (self.before, self.impulse, self.time) = (*situation, Impulse::NONE, 0.0);
+        self.outboard.restart(SVector::zeros());
+    }
+
+    /// Whether it is too short for means of its own, so that the next step belongs to it.
+    fn goes_on(&self) -> bool {
+        self.time < SHORTEST
     }
 
     /// Where the integrals of a step go that only means need.
     pub(super) fn account(&mut self) -> Account<'_, N> {
-        Account::Outboard(&mut self.outboard_impulse)
+        Account::Outboard(&mut self.outboard)
     }
 
     /// Adds the impulse of a step.
@@ -94,55 +128,84 @@ impl<const N: usize> Means<N> {
 
     /// The payload is about to be let go: the momentum that it takes along is no impulse.
     pub(super) fn release(&mut self, vehicle: &Vehicle<N>, situation: &Situation<N>) {
-        self.outboard += outboard_momentum(vehicle, situation, false) - outboard_momentum(vehicle, situation, true);
+        let momentum = |held| momentum_outboard(vehicle, situation, held);
+        self.outboard.add(&(momentum(false) - momentum(true)));
     }
 
-    /// Takes the means up to `situation`, and begins new ones; `load`: mean over the step.
-    pub(super) fn close(&mut self, dynamics: &Dynamics<N>, situation: &Situation<N>, load: &Load) {
-        if self.time < SHORTEST {
-            return;
+    /// The means up to `situation`, where the last step, under `loads`, has ended.
+    #[inline(never)]
+    pub(super) fn means(&self, dynamics: &Dynamics<N>, situation: &Situation<N>, loads: &Last<'_>) -> Means<N> {
+        if self.goes_on() {
+            return self.previous;
         }
         let (vehicle, state, per_time) = (&dynamics.vehicle, &situation.state, 1.0 / self.time);
-        let change = (state.velocity - self.velocity) * per_time;
-        let (impulse, values) = (&self.impulse, &mut self.values);
-        values.force = change.xy() * vehicle.uav_mass - impulse.thrust * per_time - load.base_force
-            + vec2(0.0, vehicle.uav_mass * vehicle.gravity);
-        values.moment = change.z * vehicle.uav_inertia - impulse.torque * per_time - load.base_torque;
-        values.control = vec2(impulse.thrust.y, impulse.torque) * per_time;
+        let (before, impulse) = (&self.before, &self.impulse);
+        let change = (state.velocity - before.state.velocity) * per_time;
+        let mut room = Load::NONE;
+        let load = loads.all.present(0.5 * loads.size, &mut room);
 
-        let momentum = outboard_momentum(vehicle, situation, state.held);
-        values.effort = (momentum - self.outboard - self.outboard_impulse) * per_time;
+        let momentum = momentum_outboard(vehicle, situation, state.held);
+        let momentum_before = momentum_outboard(vehicle, before, before.state.held);
+        let outboard_impulse = self.outboard.total(dynamics, &situation.node, &loads.all);
 
-        if state.held {
-            let payload = payload_momentum(vehicle, situation);
-            let weight = vec2(0.0, -vehicle.payload_mass * vehicle.gravity);
-            values.payload = weight + (vec2(0.0, impulse.support) - (payload - self.payload)) * per_time;
-            self.payload = payload;
-        } else {
-            (values.payload, self.payload) = (Vec2::zeros(), Vec2::zeros());
+        let payload = |situation: &Situation<N>| {
+            if situation.state.held { momentum_of_payload(dynamics, situation) } else { Vec2::zeros() }
+        };
+        let weight = vec2(0.0, -vehicle.payload_mass * vehicle.gravity);
+        Means {
+            control: vec2(impulse.thrust.y, impulse.torque) * per_time,
+            force: change.xy() * vehicle.uav_mass - impulse.thrust * per_time - load.base_force
+                + vec2(0.0, vehicle.uav_mass * vehicle.gravity),
+            moment: change.z * vehicle.uav_inertia - impulse.torque * per_time - load.base_torque,
+            effort: (momentum - momentum_before - outboard_impulse) * per_time,
+            payload: if state.held {
+                weight + (vec2(0.0, impulse.support) - (payload(situation) - payload(before))) * per_time
+            } else {
+                Vec2::zeros()
+            },
         }
-        (self.velocity, self.outboard) = (state.velocity, momentum);
-        (self.impulse, self.outboard_impulse, self.time) = (Impulse::NONE, SVector::zeros(), 0.0);
     }
 
-    /// Writes the last means.
-    pub(super) fn write(&self, outputs: &mut Outputs) {
-        let values = &self.values;
-        (outputs.thrust, outputs.torque) = (values.control.x, values.control.y);
-        outputs.transmitted_force = values.force;
-        outputs.transmitted_moment = values.moment;
-        outputs.effort[..N].copy_from_slice(values.effort.as_slice());
-        outputs.payload_force = values.payload;
+    /// Works out what waits for somebody to ask, and passes all by a tape.
+    pub(super) fn pass(
+        &mut self,
+        dynamics: &Dynamics<N>,
+        situation: &Situation<N>,
+        loads: &Last<'_>,
+        tape: &mut Tape<'_>,
+    ) {
+        let mut sum = self.outboard.total(dynamics, &situation.node, &loads.all);
+        if !self.goes_on() {
+            self.previous = self.means(dynamics, situation, loads);
+            self.restart(situation);
+            sum = SVector::zeros();
+        }
+        let Self { previous, time, before, impulse, outboard } = self;
+        previous.pass(tape);
+        time.pass(tape);
+        before.pass(tape);
+        impulse.pass(tape);
+        sum.pass(tape);
+        outboard.restart(sum);
     }
+}
+
+/// What acted during the last step.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Last<'s> {
+    /// Its loads.
+    pub all: Loads<'s>,
+    /// Its length \[s\].
+    pub size: f64,
 }
 
 /// Momentum of what each coordinate moves.
-fn outboard_momentum<const N: usize>(vehicle: &Vehicle<N>, situation: &Situation<N>, held: bool) -> SVector<f64, N> {
+fn momentum_outboard<const N: usize>(vehicle: &Vehicle<N>, situation: &Situation<N>, held: bool) -> SVector<f64, N> {
     let node = &situation.node;
-    momentum::outboard_momentum(vehicle, &node.posture, held, situation.base(), &node.rate)
+    outboard_momentum(vehicle, &node.posture, held, situation.base(), &node.rate)
 }
 
-fn payload_momentum<const N: usize>(vehicle: &Vehicle<N>, situation: &Situation<N>) -> Vec2 {
-    let node = &situation.node;
-    situation.turn.apply(node.velocity_at(vehicle, node.posture.payload, situation.base())) * vehicle.payload_mass
+fn momentum_of_payload<const N: usize>(dynamics: &Dynamics<N>, situation: &Situation<N>) -> Vec2 {
+    let Situation { turn, node, .. } = situation;
+    dynamics.velocity_at(node, *turn, node.posture.payload, situation.base()) * dynamics.vehicle.payload_mass
 }

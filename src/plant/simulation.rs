@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 
-use super::means::Means;
+use super::means::{Interval, Last};
 use super::{Inputs, Outputs, Rates, Simulation};
 use crate::bytes::{Memory, Tape};
 use crate::dynamics::{Driven, Dynamics, Instant, Load, Loads, Motion, Situation, Torques};
@@ -15,13 +15,14 @@ use crate::parameters::{BaseModel, Parameters, Structure};
 pub struct Plant<const N: usize> {
     dynamics: Dynamics<N>,
     situation: Situation<N>,
-    means: Means<N>,
+    /// For the means.
+    interval: Interval<N>,
     /// Joints driven by torques, if there are any.
     driven: Option<Driven<N>>,
     finished: Option<Finished<N>>,
 }
 
-/// What of a finished step decides what can be observed at its end, beside the state.
+/// What of the finished step decides what can be observed at its end, beside the state.
 #[derive(Debug, Clone, Copy)]
 struct Finished<const N: usize> {
     /// Accelerations of the coordinates at the end \[rad/s2, m/s2\].
@@ -43,8 +44,8 @@ impl<const N: usize> Default for Finished<N> {
 }
 
 impl<const N: usize> Finished<N> {
-    fn loads(&self) -> Loads<'_> {
-        Loads { begin: self.begin, slope: self.change.as_ref() }
+    fn last(&self) -> Last<'_> {
+        Last { all: Loads { begin: self.begin, slope: self.change.as_ref() }, size: self.size }
     }
 }
 
@@ -57,15 +58,21 @@ impl<const N: usize> Plant<N> {
         let dynamics = Dynamics::new(structure, parameters, BaseModel::Full)?;
         let situation = dynamics.start(parameters);
         let driven = dynamics.driven(parameters, &situation)?;
-        let means = Means::at_rest(&dynamics, &situation);
-        Ok(Self { dynamics, situation, means, driven, finished: None })
+        let interval = Interval::at_rest(&dynamics, &situation);
+        Ok(Self { dynamics, situation, interval, driven, finished: None })
     }
 
     /// What can be said of the end of a step.
     fn at_end(&self, finished: &Finished<N>) -> Instant {
         let mut room = Load::NONE;
-        self.dynamics.at_end(&self.situation, &finished.slope, finished.loads().present(finished.size, &mut room))
+        let loads = finished.last().all;
+        self.dynamics.at_end(&self.situation, &finished.slope, loads.present(finished.size, &mut room))
     }
+}
+
+/// What acted during the finished step, if there is one.
+fn last<const N: usize>(finished: &Option<Finished<N>>) -> Last<'_> {
+    finished.as_ref().map_or(Last { all: Loads::CALM, size: 0.0 }, Finished::last)
 }
 
 impl<const N: usize> Simulation for Plant<N> {
@@ -88,10 +95,11 @@ impl<const N: usize> Simulation for Plant<N> {
         outputs: &mut Outputs,
     ) -> Result<()> {
         self.dynamics.tune(&parameters.autopilot);
+        self.interval.begin(&self.dynamics, &self.situation, &last(&self.finished), size);
         match (self.situation.state.held, inputs.grasp) {
             (false, true) => self.dynamics.grasp(&mut self.situation),
             (true, false) => {
-                self.means.release(&self.dynamics.vehicle, &self.situation);
+                self.interval.release(&self.dynamics.vehicle, &self.situation);
                 self.dynamics.release(&mut self.situation);
                 if let Some(driven) = &mut self.driven {
                     self.dynamics.release_driven(&self.situation, driven);
@@ -105,7 +113,7 @@ impl<const N: usize> Simulation for Plant<N> {
         };
         let change = inputs.slopes.as_ref().and_then(|slopes| slopes.load.as_ref());
         let loads = Loads { begin: load(inputs), slope: change };
-        let account = self.means.account();
+        let account = self.interval.account();
         let (dynamics, situation, mut room) = (&self.dynamics, &mut self.situation, Load::NONE);
         let impulse = if let Some(driven) = &mut self.driven {
             let torques = Torques {
@@ -121,8 +129,7 @@ impl<const N: usize> Simulation for Plant<N> {
             dynamics.advance(situation, &motion, &loads, t, size, account)?
         };
         self.situation.state.check(t + size)?;
-        self.means.add(impulse, size);
-        self.means.close(&self.dynamics, &self.situation, loads.present(0.5 * size, &mut room));
+        self.interval.add(impulse, size);
         let (slope, begin, change) = (motion.slope, loads.begin, change.copied());
         self.finished = Some(Finished { slope, begin, change, size });
         self.write_state(outputs);
@@ -135,7 +142,7 @@ impl<const N: usize> Simulation for Plant<N> {
         outputs.end_effector = self.situation.place(tip);
         outputs.end_effector_velocity = self.dynamics.velocity_at(node, *turn, tip, self.situation.base());
         outputs.center_of_mass = self.situation.place(node.matrix.first / node.matrix.mass);
-        self.means.write(outputs);
+        self.interval.means(&self.dynamics, &self.situation, &last(&self.finished)).write(outputs);
         if let Some(finished) = &self.finished {
             let now = self.at_end(finished);
             outputs.acceleration = now.acceleration;
@@ -149,8 +156,8 @@ impl<const N: usize> Simulation for Plant<N> {
 
     fn rates(&self) -> Rates {
         let Some(finished) = &self.finished else { return Rates::default() };
-        let Instant { acceleration, .. } = self.at_end(finished);
-        let control = self.dynamics.control_rate(&self.situation, &acceleration, &finished.loads(), finished.size);
+        let (Instant { acceleration, .. }, last) = (self.at_end(finished), finished.last());
+        let control = self.dynamics.control_rate(&self.situation, &acceleration, &last.all, last.size);
         let now = self.dynamics.rates_at_end(&self.situation, &finished.slope, &acceleration);
         let mut rates = Rates {
             end_effector_velocity: now.tip_velocity,
@@ -178,10 +185,10 @@ impl<const N: usize> Simulation for Plant<N> {
 impl<const N: usize> Memory for Plant<N> {
     fn pass(&mut self, tape: &mut Tape<'_>) {
         // Without "..": whoever adds a field decides here whether it follows from the parameters.
-        let Self { dynamics, situation, means, driven, finished } = self;
+        let Self { dynamics, situation, interval, driven, finished } = self;
         dynamics.pass_gains(tape);
         situation.pass(tape);
-        means.pass(tape);
+        interval.pass(dynamics, situation, &last(finished), tape);
         if let Some(driven) = driven {
             driven.pass(tape);
         }

@@ -92,8 +92,8 @@ impl<const N: usize> Dynamics<N> {
         *turn = self.arm_turn(&phase.flow);
         self.settle(state, &phase.flow, node);
         driven.momentum += driven.part(&(phase.outboard + torques.impulse(size)));
-        if let Account::Outboard(sum) = account {
-            *sum += phase.outboard;
+        if let Account::Outboard(outboard) = account {
+            outboard.add(&phase.outboard);
         }
         Ok(self.impulse(state, &before, &phase.flow, node, loads, size))
     }
