@@ -24,7 +24,8 @@ from random_cases import MODES, PAYLOADS, Case, random_case
 from rigid_bodies import Drake, Dynamics, MuJoCo, Pinocchio
 
 STRUCTURES = ALL if FULL else EVERY_LENGTH
-SEEDS = range(len(MODES) * len(PAYLOADS))
+COMBINATIONS = len(MODES) * len(PAYLOADS)
+SEEDS = range(COMBINATIONS * (2 if FULL else 1))
 PROGRAMS = [
     pytest.param(MuJoCo, id="mujoco"),
     pytest.param(Pinocchio, id="pinocchio"),
@@ -126,7 +127,7 @@ class Programs:
 
 
 def _case(structure: Structure, seed: int, duration: float = 1.0, **given: Any) -> Case:
-    seed += 7000 + len(SEEDS) * 1000 * ALL.index(structure)
+    seed += 7000 + COMBINATIONS * 1000 * ALL.index(structure)
     return random_case(
         seed, links=structure.links, balance=structure.balance, duration=duration, **given
     )
@@ -238,4 +239,7 @@ def test_mean_joint_torques_are_impulses_over_the_step(
         error = np.max(np.abs(mean - coarse.torque[k]))
         assert error <= MEAN * largest, f"{case.name}: step {k}: {error} of {largest}"
         before, held = coarse.v[k], inputs.grasp
-    assert shocks > (0 if driven else 5) or links == len(own)
+    if links == len(own):
+        assert shocks == 0, "joints that are all driven give way"
+    else:
+        assert shocks > (0 if driven else 5)

@@ -13,8 +13,9 @@ from random_cases import MODES, PAYLOADS, Case, oracle_table, random_case
 STRUCTURES = ALL if FULL else EVERY_LENGTH
 COMBINATIONS = len(MODES) * len(PAYLOADS)
 SEEDS = range(COMBINATIONS * (20 if FULL else 2))
-# The first of each combination is a long one [s].
+# Durations [s]; the first cases of each combination are long.
 LONG, SHORT = 5.0, 2.0
+LONG_SEEDS = COMBINATIONS * (4 if FULL else 1)
 
 # Bounds: (smooth, with contact), for series up to 1 in SI units; they grow with the largest value,
 # for some vehicles without control fall and tumble.  The plant's error shows amplified by gains and
@@ -71,7 +72,7 @@ def compare(case: Case, plant: dict[str, Array], oracle: dict[str, Array]) -> li
 @pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("structure", STRUCTURES, ids=str)
 def test_plant(structure: Structure, seed: int) -> None:
-    duration = LONG if seed < COMBINATIONS else SHORT
+    duration = LONG if seed < LONG_SEEDS else SHORT
     # Seeds differ from one structure to the next, so that all together see more vehicles.
     seed += COMBINATIONS * 1000 * STRUCTURES.index(structure)
     case = random_case(seed, links=structure.links, balance=structure.balance, duration=duration)

@@ -228,7 +228,9 @@ def test_gains_that_are_to_change_are_part_of_a_state(name: str) -> None:
                 each.step(n * STEP, STEP)
         instance.set(gains)
         slave = instance.slave
-        other.slave.setFMUstate(other.slave.deSerializeFMUstate(slave.serializeFMUstate(slave.getFMUstate())))
+        other.slave.setFMUstate(
+            other.slave.deSerializeFMUstate(slave.serializeFMUstate(slave.getFMUstate()))
+        )
         assert other.all(outputs) == instance.all(outputs) == untouched.all(outputs)
         reals = [v for v in outputs if unit.variables[v].type == "Real"]
         slopes = [[each.slope(v) for v in reals] for each in (instance, other, untouched)]
