@@ -30,19 +30,19 @@ pub fn page(unit: &Unit) -> String {
             body {
                 (head(unit))
                 nav {
-                    @for chapter in &chapters { a href={ "#" (chapter.anchor()) } { (chapter.title) } }
-                    @for (heading, _) in &tables { a href={ "#" (heading) } { (heading) } }
+                    @for chapter in &chapters { a href={ "#" (anchor(&chapter.title)) } { (chapter.title) } }
+                    @for (heading, _) in &tables { a href={ "#" (anchor(heading)) } { (heading) } }
                 }
                 main {
                     @for (place, chapter) in chapters.iter().enumerate() {
                         section {
-                            h2 id=(chapter.anchor()) { (chapter.title) }
+                            h2 id=(anchor(&chapter.title)) { (chapter.title) }
                             (chapter.content)
                             @if place == 0 { (figure::vehicle(unit.structure)) }
                         }
                     }
                     @for (heading, table) in &tables {
-                        section { h2 id=(heading) { (heading) } (table) }
+                        section { h2 id=(anchor(heading)) { (heading) } (table) }
                     }
                 }
                 footer {
@@ -52,6 +52,11 @@ pub fn page(unit: &Unit) -> String {
         }
     };
     markup.into_string()
+}
+
+/// The name by which links find a heading.
+fn anchor(heading: &str) -> String {
+    heading.to_lowercase().replace(' ', "-")
 }
 
 fn head(unit: &Unit) -> Markup {

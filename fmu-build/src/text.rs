@@ -16,8 +16,10 @@ const ELEMENT_LAW: &str = include_str!("text/balance_element_law.md");
 
 /// Where the conventions go.
 const PLACE_OF_CONVENTIONS: &str = "<!-- conventions -->";
-/// Where the text goes that only some structures have.
+/// Where the text goes on what balances the arm, if something does.
 const PLACE_OF_BALANCE: &str = "<!-- balance -->";
+/// Where it goes that says how the controller moves that.
+const PLACE_OF_LAW: &str = "<!-- law of the balance -->";
 
 /// A unit's text with what both have in common, and with what belongs to its structure.
 #[must_use]
@@ -27,8 +29,8 @@ pub fn complete(text: &str, structure: Structure) -> String {
         Balance::Counterweight => (COUNTERWEIGHT, COUNTERWEIGHT_LAW),
         Balance::Element => (ELEMENT, ELEMENT_LAW),
     };
-    let law = if text == CONTROLLER { law } else { "" };
-    text.replace(PLACE_OF_CONVENTIONS, CONVENTIONS).replace(PLACE_OF_BALANCE, &format!("{body}\n{law}"))
+    let parts = [(PLACE_OF_CONVENTIONS, CONVENTIONS), (PLACE_OF_BALANCE, body), (PLACE_OF_LAW, law)];
+    parts.into_iter().fold(text.to_owned(), |text, (place, part)| text.replace(place, part))
 }
 
 #[cfg(test)]

@@ -12,17 +12,21 @@ const ALIGNMENT: u32 = 14;
 const HEADER: usize = 8;
 const ENTRY: usize = 20;
 
-/// One file of these libraries, in this order; `name` is for errors.
+/// One file of these libraries, in this order; a single one as it is. `name` is for errors.
 ///
 /// # Errors
 /// If one is no library for macOS, or they are too long for the format.
-pub fn join(name: &str, libraries: &[Vec<u8>]) -> Result<Vec<u8>> {
+pub fn join(name: &str, libraries: Vec<Vec<u8>>) -> Result<Vec<u8>> {
+    let libraries = match <[_; 1]>::try_from(libraries) {
+        Ok([library]) => return Ok(library),
+        Err(libraries) => libraries,
+    };
     let refused = |reason: &str| Error::Document { document: format!("{name} for macOS"), reason: reason.to_owned() };
     let number = |value: usize| u32::try_from(value).map_err(|_| refused("4 GB is the limit of the format"));
     let mut header = [FAT, number(libraries.len())?.to_be_bytes()].concat();
     let mut body: Vec<u8> = Vec::new();
     let begin = (HEADER + ENTRY * libraries.len()).next_multiple_of(1 << ALIGNMENT);
-    for library in libraries {
+    for library in &libraries {
         // The processor and its kind stand behind the first bytes, in the byte order of the processor.
         let (Some(THIN), Some(processor), Some(kind)) = (word(library, 0), word(library, 1), word(library, 2)) else {
             return Err(refused("a library does not begin like one"));
@@ -59,7 +63,7 @@ mod tests {
     #[test]
     fn each_processor_finds_its_library() {
         let libraries = [thin(0x0100_0007, 20_000), thin(0x0100_000c, 100)];
-        let joined = join("unit", &libraries).unwrap();
+        let joined = join("unit", libraries.to_vec()).unwrap();
         let file = MachOFatFile32::parse(joined.as_slice()).unwrap();
         let found: Vec<_> =
             file.arches().iter().map(|arch| (arch.cputype().0, arch.data(joined.as_slice()).unwrap())).collect();
@@ -70,7 +74,7 @@ mod tests {
     #[test]
     fn what_is_no_library_is_refused() {
         for other in [b"\x7fELF and more".to_vec(), Vec::new(), THIN.to_vec()] {
-            let error = join("uam_plant", &[other]).unwrap_err().to_string();
+            let error = join("uam_plant", vec![thin(7, 100), other]).unwrap_err().to_string();
             assert!(error.contains("uam_plant for macOS") && error.contains("does not begin"), "{error}");
         }
     }

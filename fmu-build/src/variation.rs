@@ -1,6 +1,6 @@
 //! A scenario with some of its numbers changed: what depends on a number that the thesis does not print?
 
-use uam::scenarios::{Error, Scenario};
+use uam::scenarios::{Error, Problem, Scenario};
 
 /// Beside the names of parameters, `duration` and `step`: all times of path and grasp are divided by it.
 pub const PACE: &str = "pace";
@@ -18,9 +18,9 @@ pub type Changes<'a> = &'a [(&'a str, &'a str)];
 /// # Errors
 /// Names the key or value that is not understood, with what is allowed.
 pub fn vary(scenario: &Scenario, changes: Changes<'_>) -> Result<Scenario, Error> {
-    changes.iter().try_fold(scenario.clone(), |scenario, &(name, value)| match (name, value.parse()) {
-        (PACE, Ok(pace)) if positive(pace) => Ok(at_pace(scenario, pace)),
-        (SIZE, Ok(size)) if positive(size) => Ok(of_size(scenario, size)),
+    changes.iter().try_fold(scenario.clone(), |scenario, &(name, value)| match name {
+        PACE => Ok(at_pace(scenario, factor(name, value)?)),
+        SIZE => Ok(of_size(scenario, factor(name, value)?)),
         _ if name.contains(EVERY) => {
             let names = (1..=scenario.structure.links).map(|n| name.replace(EVERY, &format!("[{n}]")));
             names.into_iter().try_fold(scenario, |scenario, name| scenario.with([(name.as_str(), value)]))
@@ -29,8 +29,10 @@ pub fn vary(scenario: &Scenario, changes: Changes<'_>) -> Result<Scenario, Error
     })
 }
 
-fn positive(factor: f64) -> bool {
-    factor > 0.0 && factor.is_finite()
+fn factor(name: &str, value: &str) -> Result<f64, Error> {
+    let number = value.parse().ok().filter(|&factor: &f64| factor > 0.0 && factor.is_finite());
+    let refused = || Problem::Value { key: name.into(), expected: "a number above 0".into(), found: value.into() };
+    number.ok_or_else(|| Error::Change(refused()))
 }
 
 fn at_pace(mut scenario: Scenario, pace: f64) -> Scenario {
@@ -80,8 +82,10 @@ mod tests {
     #[test]
     fn what_is_no_factor_is_refused() {
         let known = find("4.3b").unwrap();
-        for (name, value) in [(PACE, "0"), (SIZE, "-1"), (PACE, "inf"), (SIZE, "wide"), ("paces", "2")] {
-            assert!(vary(&known, &[(name, value)]).is_err(), "{name} = {value}");
+        for (name, value) in [(PACE, "0"), (SIZE, "-1"), (PACE, "inf"), (SIZE, "wide")] {
+            let said = vary(&known, &[(name, value)]).unwrap_err().to_string();
+            assert_eq!(said, format!("`{name}` must be a number above 0, but is {value}"));
         }
+        assert!(vary(&known, &[("paces", "2")]).is_err());
     }
 }

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests may fail like tests")]
 
+use std::collections::HashSet;
 use std::io::{Cursor, Read};
 
 use fmu_build::documentation::page;
@@ -123,11 +124,18 @@ fn the_page_has_picture_and_formulas_and_needs_nothing_from_elsewhere() {
             for outside in ["http:", "https:", "@import", "url(\"", "<script", "<link"] {
                 assert!(!html.contains(outside), "{outside}");
             }
-            let sources: Vec<_> = html.split(" src=\"").skip(1).map(|rest| rest.split('"').next().unwrap()).collect();
-            assert_eq!(sources, ["../model.png"]);
-            let anchors = html.split("href=\"#").skip(1).map(|rest| rest.split('"').next().unwrap());
-            for anchor in anchors {
-                assert!(html.contains(&format!("id=\"{anchor}\"")), "{anchor}");
+            let values = |attribute: &str| -> Vec<&str> {
+                html.split(attribute).skip(1).map(|rest| rest.split('"').next().unwrap()).collect()
+            };
+            assert_eq!(values(" src=\""), ["../model.png"]);
+            let names = values(" id=\"");
+            let different: HashSet<_> = names.iter().collect();
+            assert_eq!(different.len(), names.len(), "two places of one name");
+            for name in &names {
+                assert!(!name.is_empty() && !name.contains(' '), "`{name}` is no name in HTML");
+            }
+            for anchor in values("href=\"#") {
+                assert!(different.contains(&anchor), "{anchor}");
             }
         }
     }
