@@ -117,7 +117,8 @@ What the platforms need beside Rust:
 #[command(after_long_help = BUILD_EXAMPLES)]
 pub struct BuildArguments {
     /// Revolute links of the arm, 1 to 6
-    #[arg(long, value_name = "NUMBER", default_value_t = Structure::DEFAULT.links, value_parser = links, allow_hyphen_values = true)]
+    #[arg(long, value_name = "NUMBER", value_parser = links, allow_hyphen_values = true)]
+    #[arg(default_value_t = Structure::DEFAULT.links)]
     pub links: usize,
     /// A counterweight that slides along the UAV balances the arm
     #[arg(long, conflicts_with = "balance_element")]
@@ -128,7 +129,8 @@ pub struct BuildArguments {
     /// Vehicle, gains, method and path of a simulation as start values, by its name in `list` or as a TOML file
     ///
     /// The FMUs then run this simulation in any host that sets nothing. `show` prints a file to start from.
-    #[arg(long, value_name = "NAME|FILE", visible_alias = "parameters", conflicts_with_all = ["links", "counterweight", "balance_element"])]
+    #[arg(long, value_name = "NAME|FILE", visible_alias = "parameters")]
+    #[arg(conflicts_with_all = ["links", "counterweight", "balance_element"])]
     pub scenario: Option<String>,
     /// Names like joint_1_rate_command instead of joint[1].rate_command, for hosts that make buses of the latter
     #[arg(long)]
@@ -200,8 +202,8 @@ pub struct VaryArguments {
     pub scenario: String,
     /// A name and its values, for instance autopilot.roll.kd=3,6,9
     ///
-    /// A parameter (`[*]` instead of `[1]`: that of every joint), `duration`, `step`, `pace` (all times of path and grasp are divided by it) or `size` (all ways of
-    /// the path are multiplied by it).
+    /// A parameter (`[*]` instead of `[1]`: that of every joint), `duration`, `step`, `pace` (all times of path and
+    /// grasp are divided by it) or `size` (all ways of the path are multiplied by it).
     #[arg(value_name = "NAME=VALUES", required = true, value_parser = change)]
     pub changes: Vec<Change>,
     /// Print every quantity, not only those about which the thesis says something

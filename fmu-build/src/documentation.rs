@@ -71,13 +71,20 @@ fn head(unit: &Unit) -> Markup {
         }
         dl {
             dt { "Interface" } dd { "FMI 2.0 for co-simulation" }
-            dt { "Structure" } dd { (interface.structure) ", chosen when the unit was built; all numbers are parameters" }
+            dt { "Structure" }
+            dd { (interface.structure) ", chosen when the unit was built; all numbers are parameters" }
             dt { "Experiment" }
-            dd { (interface.experiment.stop_time) " s in steps of " (interface.experiment.step_size) " s, if nothing else is asked for" }
+            dd {
+                (interface.experiment.stop_time) " s in steps of " (interface.experiment.step_size)
+                " s, if nothing else is asked for"
+            }
             dt { "Version" } dd { (metadata::VERSION) ", " code { (interface.guid) } }
             @if interface.naming == Naming::Flat {
                 dt { "Names" }
-                dd { "flat: what the text calls " code { "joint[1].rate_command" } " is " code { "joint_1_rate_command" } }
+                dd {
+                    "flat: what the text calls " code { "joint[1].rate_command" } " is "
+                    code { "joint_1_rate_command" }
+                }
             }
         }
     }

@@ -26,7 +26,8 @@ use zip::ZipArchive;
 const LARGEST: usize = 1_000_000;
 /// How many functions FMI 2.0 has.
 const FUNCTIONS: usize = 44;
-/// Endings of what Zig's linker exports for macOS whatever it is told; names are sought in each library by itself there.
+/// Endings of what Zig's linker exports for macOS whatever it is told; names are sought in each library by itself
+/// there.
 const ON_MACOS: &[&str] = &["mh_dylib_header", "dso_handle", "rust_eh_personality", "EMPTY_PANIC"];
 
 /// Libraries that every system of a platform has.

@@ -109,18 +109,27 @@ pub const REDUNDANCY: &[Claim] = &[
     claim("3.1b", Quantity::ErrorX, "then drifts away", [20.0 * MM, f64::INFINITY]),
     claim("3.1b", Quantity::EarlyErrorX, "just below 10 mm at first (kind)", [5.0 * MM, 12.0 * MM]),
     claim("3.1b", Quantity::DriftSpeed, "about 60 mm/s (kind)", [40.0 * MM, 80.0 * MM]),
-    claim("3.1b", Quantity::WayY, "below 0.1 mm", [0.0, 0.1 * MM])
-        .unless(BOTH, "grows with the accelerations of the path, which the thesis does not print", &[("pace", "0.7")]),
+    claim("3.1b", Quantity::WayY, "below 0.1 mm", [0.0, 0.1 * MM]).unless(
+        BOTH,
+        "grows with the accelerations of the path, which the thesis does not print",
+        &[("pace", "0.7")],
+    ),
     claim("3.2a", Quantity::TrackingError, "about 1e-5 m", below(1e-5)),
     claim("3.2a", Quantity::Moment, "about 1e-3 N m", below(1e-3)),
     claim("3.2b", Quantity::TrackingError, "below 0.1 mm", [0.0, 0.1 * MM]),
-    claim("3.2b", Quantity::WayX, "below 0.1 mm", [0.0, 0.1 * MM]).unless(BOTH, "0.103 mm with either discretization and any step: it grows with the accelerations of the path", &[("pace", "0.9"), ("duration", "12")]),
+    claim("3.2b", Quantity::WayX, "below 0.1 mm", [0.0, 0.1 * MM]).unless(
+        BOTH,
+        "0.103 mm with either discretization and any step: it grows with the accelerations of the path",
+        &[("pace", "0.9"), ("duration", "12")],
+    ),
     claim("3.2b", Quantity::WayY, "below 0.1 mm", [0.0, 0.1 * MM]),
     claim("3.2b", Quantity::Roll, "about 1e-4°", order(1e-4 * DEGREE)),
     ratio("3.2c", Quantity::Moment, "3.2b", "ten times", order(10.0)),
     ratio("3.2c", Quantity::WayX, "3.2b", "ten times", order(10.0)),
-    ratio("3.2c", Quantity::WayY, "3.2b", "ten times", order(10.0))
-        .but(BOTH, "grows with the accelerations of the path: 3 times that of 3.2b as it is, with sides of 1.5 s instead of 3 s"),
+    ratio("3.2c", Quantity::WayY, "3.2b", "ten times", order(10.0)).but(
+        BOTH,
+        "grows with the accelerations of the path: 3 times that of 3.2b as it is, with sides of 1.5 s instead of 3 s",
+    ),
     claim("3.2c", Quantity::TrackingError, "below 0.5 mm", [0.0, 0.5 * MM]),
     claim("3.2d", Quantity::Moment, "0.2 N m after a peak", [0.1, 2.0]),
     claim("3.2d", Quantity::Sinking, "6 mm (misprinted 6 cm)", [5.5 * MM, 7.0 * MM]),
@@ -145,8 +154,12 @@ pub const REDUNDANCY: &[Claim] = &[
          mass that jumps in (3.22) is what drifts in the thesis",
     ),
     claim("3.5a", Quantity::ErrorX, "acceptable", [0.0, 1.0 * MM]),
-    claim("3.5a", Quantity::ErrorY, "above 10 mm (kind)", [10.0 * MM, 50.0 * MM])
-        .unless(BOTH, "grows with the accelerations of the path, 7 mm at three times its pace; but where it is above 10 mm, the UAV moves along x by more than 1 mm", &[("pace", "5.5")]),
+    claim("3.5a", Quantity::ErrorY, "above 10 mm (kind)", [10.0 * MM, 50.0 * MM]).unless(
+        BOTH,
+        "grows with the accelerations of the path, 7 mm at three times its pace; but where it is above 10 mm, the \
+             UAV moves along x by more than 1 mm",
+        &[("pace", "5.5")],
+    ),
     ratio("3.5a", Quantity::ErrorY, "3.5b", "far larger", [5.0, 1000.0]),
     claim("3.5a", Quantity::ErrorYWithoutBase, "the UAV's", [0.0, 0.2 * MM]),
     claim("3.5a", Quantity::WayX, "below 1 mm", [0.0, 1.0 * MM]),
@@ -179,11 +192,17 @@ pub const REDUNDANCY: &[Claim] = &[
     ratio("3.7", Quantity::Moment, "3.7-extended-jacobian", "rises where the limit binds", [2.0, f64::INFINITY]),
     claim("3.7", Quantity::LateMoment, "falls again", [0.0, 5e-3]),
     ratio("3.7", Quantity::WayX, "3.7-extended-jacobian", "no larger", [0.0, 1.1]),
-    claim("3.7", Quantity::TrackingError, "below 0.11 mm", [0.0, 0.11 * MM])
-        .unless(EULER, "0.13 mm, as with the extended Jacobian: proportional to the step", &[("step", "7e-4"), ("sample_time", "7e-4")]),
+    claim("3.7", Quantity::TrackingError, "below 0.11 mm", [0.0, 0.11 * MM]).unless(
+        EULER,
+        "0.13 mm, as with the extended Jacobian: proportional to the step",
+        &[("step", "7e-4"), ("sample_time", "7e-4")],
+    ),
     claim("3.8a", Quantity::LostAt, "reaches 130 mm", NEVER),
-    claim("3.8a", Quantity::WayX, "below 0.5 mm", [0.0, 0.5 * MM])
-        .unless(BOTH, "0.8 to 0.9 mm if the motion takes 4 s as the text says, 0.3 mm if it takes 4 s each way", &[("pace", "0.5"), ("duration", "10")]),
+    claim("3.8a", Quantity::WayX, "below 0.5 mm", [0.0, 0.5 * MM]).unless(
+        BOTH,
+        "0.8 to 0.9 mm if the motion takes 4 s as the text says, 0.3 mm if it takes 4 s each way",
+        &[("pace", "0.5"), ("duration", "10")],
+    ),
     claim("3.8a", Quantity::Roll, "about 1e-4° (kind)", below(1e-4 * DEGREE)),
     claim("3.8a", Quantity::Moment, "about 0.1 N m (kind)", below(0.1)),
     claim("3.8b", Quantity::LostAt, "reaches 240 mm", NEVER),

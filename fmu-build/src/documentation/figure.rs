@@ -42,7 +42,8 @@ pub fn vehicle(structure: Structure) -> Markup {
         figure {
             svg viewBox="-330 -135 660 470" role="img" aria-label="Multicopter with arm: frames and symbols" {
                 defs {
-                    marker id="tip" viewBox="0 0 10 10" refX="8" refY="5" markerWidth="7" markerHeight="7" orient="auto-start-reverse" {
+                    marker id="tip" viewBox="0 0 10 10" refX="8" refY="5" markerWidth="7" markerHeight="7"
+                        orient="auto-start-reverse" {
                         path d="M0 0L10 5L0 10z" fill="context-stroke" {}
                     }
                 }
@@ -165,7 +166,8 @@ fn arc(center: Place, radius: f64, angles: [f64; 2]) -> Markup {
 fn arc_of(class: &str, [x, y]: Place, radius: f64, angles: [f64; 2]) -> Markup {
     let [from, to] = angles.map(|angle| point([x + radius * angle.cos(), y + radius * angle.sin()]));
     let clockwise = u8::from(angles[1] < angles[0]);
-    html! { path class=(class) d={ "M" (from) " A" (radius) "," (radius) " 0 0 " (clockwise) " " (to) } marker-end="url(#tip)" {} }
+    let arc = format!("M{from} A{radius},{radius} 0 0 {clockwise} {to}");
+    html! { path class=(class) d=(arc) marker-end="url(#tip)" {} }
 }
 
 fn dot(class: &str, [x, y]: Place, radius: f64) -> Markup {

@@ -79,7 +79,7 @@ pub enum Error {
         messages: Vec<Message>,
     },
     /// A variable that the unit does not have.
-    #[error("{unit} has no variable `{name}`{}", nearest.as_ref().map_or(String::new(), |near| format!("; nearest is `{near}`")))]
+    #[error("{unit} has no variable `{name}`{}", proposal(nearest.as_deref()))]
     Name {
         /// Name of the unit.
         unit: String,
@@ -123,6 +123,10 @@ impl Error {
             },
         )
     }
+}
+
+fn proposal(nearest: Option<&str>) -> String {
+    nearest.map_or_else(String::new, |near| format!("; nearest is `{near}`"))
 }
 
 /// The unit's own words on one line.

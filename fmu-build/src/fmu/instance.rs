@@ -324,7 +324,8 @@ impl Instance {
 impl Drop for Instance {
     fn drop(&mut self) {
         if !self.dead {
-            // SAFETY: the component is alive, the state is one of its own or null, and nobody can use either after this.
+            // SAFETY: the component is alive, the state is one of its own or null, and nobody can use either after
+            // this.
             unsafe {
                 if !self.saved.is_null() {
                     (self.loaded.functions.free_state)(self.component.as_ptr(), &raw mut self.saved);

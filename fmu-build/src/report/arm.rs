@@ -117,9 +117,11 @@ fn strip(series: &Series<'_>, frames: &[(f64, Pose)], window: Window) -> Markup 
     let width = (size.x + gap) * f64::from(u32::try_from(frames.len()).unwrap_or(u32::MAX));
     let capture = Pose::capture(&series.run.scenario, &series.run.recording);
     html! {
-        svg.arm viewBox={ "-1 0 " (width + 2.0 - gap) " " (size.y + TITLE + 1.0) } role="img" aria-label="The vehicle at some instants" {
+        svg.arm viewBox={ "-1 0 " (width + 2.0 - gap) " " (size.y + TITLE + 1.0) } role="img"
+            aria-label="The vehicle at some instants" {
             @for (i, (time, pose)) in frames.iter().enumerate() {
-                g transform={ "translate(" (f64::from(u32::try_from(i).unwrap_or(u32::MAX)) * (size.x + gap)) " " (TITLE) ")" } {
+                @let left = f64::from(u32::try_from(i).unwrap_or(u32::MAX)) * (size.x + gap);
+                g transform={ "translate(" (left) " " (TITLE) ")" } {
                     rect x="0" y="0" width=(size.x) height=(size.y) rx="6" fill="#fafbfc" stroke="#e8ecf0" {}
                     text x="4" y="-7" { "t = " ((1e3 * time).round() / 1e3) " s" }
                     (frame(series, pose, capture, window))
@@ -138,7 +140,8 @@ fn frame(series: &Series<'_>, pose: &Pose, capture: Option<Vec2>, window: Window
     let support = &series.run.scenario.parameters.support;
     html! {
         line x1=(start.x) x2=(start.x) y1="0" y2=(window.size().y) stroke="#cfd6dd" stroke-dasharray="3 4" {}
-        polyline points=(window.path(wanted.into_iter().map(|(x, y)| vec2(x, y)))) fill="none" stroke="#97a3af" stroke-width="1.5" {}
+        polyline points=(window.path(wanted.into_iter().map(|(x, y)| vec2(x, y)))) fill="none" stroke="#97a3af"
+            stroke-width="1.5" {}
         @if let (Some(capture), true) = (capture, support.stiffness > 0.0) {
             @let load = payload.map_or(support.height, |payload| payload.y.min(support.height));
             polyline points=(window.path(spring(vec2(capture.x, load - 0.5 * PAYLOAD), support.height - SPRING)))
@@ -168,7 +171,8 @@ fn uav(pose: &Pose, window: Window) -> Markup {
         polyline points=(line(&[(-0.17, 0.012), (0.17, 0.012)])) stroke="#4a5361" stroke-width="4" {}
         @for side in [-0.17, 0.17] {
             polyline points=(line(&[(side, 0.012), (side, 0.04)])) stroke="#4a5361" stroke-width="4" {}
-            polyline points=(line(&[(side - 0.07, 0.042), (side + 0.07, 0.042)])) stroke="#9aa5b1" stroke-width="3" stroke-linecap="round" {}
+            polyline points=(line(&[(side - 0.07, 0.042), (side + 0.07, 0.042)])) stroke="#9aa5b1" stroke-width="3"
+                stroke-linecap="round" {}
         }
         polygon points=(line(&hub)) fill="#4a5361" stroke="#4a5361" stroke-width="3" stroke-linejoin="round" {}
         @if let Some(counterweight) = pose.counterweight {

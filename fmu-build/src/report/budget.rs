@@ -149,8 +149,8 @@ fn figure(curves: &[Curve], measure: &Measure) -> Result<Markup, Error> {
                 (panels(&legend, &[panel])?)
                 (table(&head("largest error [m]"), &rows(curves, measure)))
                 figcaption {
-                    "Both axes are logarithmic. The order is the power of the step with which the error grows, where it is "
-                    "neither rounding nor out of all proportion."
+                    "Both axes are logarithmic. The order is the power of the step with which the error grows, where "
+                    "it is neither rounding nor out of all proportion."
                 }
             }
         }

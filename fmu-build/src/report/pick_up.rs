@@ -32,15 +32,17 @@ pub fn report(cases: &[Case]) -> Result<Report, Error> {
         title: "Picking up a payload from an elastic support".to_owned(),
         introduction: html! {
             p {
-                "A hovering multicopter reaches down with an arm of three links, grasps " (scenario.parameters.payload.mass)
-                " kg that rest on a spring, and lifts them. The arm has one joint more than the path needs. The controller "
-                "uses it either for the smallest joint rates (minimum norm), or to keep the moment of the arm off the UAV "
-                "(extended Jacobian). This is the simulation of thesis section 4.3."
+                "A hovering multicopter reaches down with an arm of three links, grasps "
+                (scenario.parameters.payload.mass) " kg that rest on a spring, and lifts them. The arm has one joint "
+                "more than the path needs. The controller uses it either for the smallest joint rates (minimum norm), "
+                "or to keep the moment of the arm off the UAV (extended Jacobian). This is the simulation of thesis "
+                "section 4.3."
             }
             p {
-                code { "uam_controller.fmu" } " and " code { "uam_plant.fmu" } ", loaded through their C interface and coupled by a "
-                "parallel master for " (scenario.duration) " s in steps of " (1e3 * scenario.step) " ms. The thesis' own step of the "
-                "inverse kinematics is " code { "euler" } "; the FMUs' default is " code { "exact" } ", and so are the figures."
+                code { "uam_controller.fmu" } " and " code { "uam_plant.fmu" } ", loaded through their C interface and "
+                "coupled by a parallel master for " (scenario.duration) " s in steps of " (1e3 * scenario.step) " ms. "
+                "The thesis' own step of the inverse kinematics is " code { "euler" } "; the FMUs' default is "
+                code { "exact" } ", and so are the figures."
             }
         },
         table: study::pick_up_table(&cases.iter().map(Case::summary).collect::<Vec<_>>()),
@@ -76,13 +78,15 @@ fn remark(topic: Topic, [extended, minimum]: &[Series<'_>; 2]) -> String {
         |series: &Series<'_>, quantity: Quantity| quantity.show(quantity.measure(&series.run.recording)).to_string();
     match topic {
         Topic::Vehicle => {
-            "With the extended Jacobian the inner links fold back while the last one reaches out, so that what the UAV carries stays balanced below it.".to_owned()
+            "With the extended Jacobian the inner links fold back while the last one reaches out, so that what the UAV \
+             carries stays balanced below it."
+                .to_owned()
         }
         Topic::Base => format!(
             "With minimum norm the reaching arm tilts the UAV by up to {}, and it is carried {} to the right; with the \
-             extended Jacobian it rolls by no more than {} and ends {} to the right, so that it hangs again where the common centre of mass of vehicle and \
-             payload was. Either way it sinks by {} and more while the load comes off the support, for the autopilot does not \
-             know of the payload.",
+             extended Jacobian it rolls by no more than {} and ends {} to the right, so that it hangs again where the \
+             common centre of mass of vehicle and payload was. Either way it sinks by {} and more while the load comes \
+             off the support, for the autopilot does not know of the payload.",
             shown(minimum, Quantity::Roll),
             shown(minimum, Quantity::FarthestRight),
             shown(extended, Quantity::Roll),
@@ -98,8 +102,8 @@ fn remark(topic: Topic, [extended, minimum]: &[Series<'_>; 2]) -> String {
         Topic::Joints => "Both follow the same path of the end effector with different joint motions.".to_owned(),
         Topic::Rates | Topic::Reach => String::new(),
         Topic::Controls => format!(
-            "The torque needed to hold the roll is {} at most with minimum norm, {} with the extended Jacobian. The thrust \
-             rises by the weight of the payload.",
+            "The torque needed to hold the roll is {} at most with minimum norm, {} with the extended Jacobian. The \
+             thrust rises by the weight of the payload.",
             shown(minimum, Quantity::Torque),
             shown(extended, Quantity::Torque),
         ),
@@ -121,7 +125,8 @@ fn growing_swings(series: &[Series<'_>; 2]) -> Result<Figure, Error> {
     figure.title = format!("Motion of the UAV with roll kd = {}", minimum.run.scenario.parameters.autopilot.roll.kd);
     figure.caption = format!(
         "With these gains the UAV swings more and more under the minimum norm, until at {} the reference is out of the \
-         arm's reach (the curve ends there). The extended Jacobian gives the roll control nothing to do: it rolls by {} at most.",
+         arm's reach (the curve ends there). The extended Jacobian gives the roll control nothing to do: it rolls by \
+         {} at most.",
         Quantity::LostAt.show(lost),
         Quantity::Roll.show(Quantity::Roll.measure(&extended.run.recording)),
     );

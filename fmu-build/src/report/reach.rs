@@ -74,8 +74,9 @@ pub fn report(scenarios: &[Scenario], results: &[Reach], changes: &str) -> Resul
         title: "How far the arm reaches".to_owned(),
         introduction: html! {
             p {
-                "Each motion is enlarged until limits or a singular configuration make the path give way (" code { "ik.status" }
-                "). The moment on the UAV gives way earlier: the limits come first, then the path, then the moment."
+                "Each motion is enlarged until limits or a singular configuration make the path give way ("
+                code { "ik.status" } "). The moment on the UAV gives way earlier: the limits come first, then the "
+                "path, then the moment."
             }
             @if !changes.is_empty() { p { "Changed: " code { (changes) } "." } }
         },
