@@ -141,7 +141,7 @@ mod tests {
             "4.3a",
             vec![
                 row("4.3a", Quantity::FarthestRight),
-                Row::plain(Quantity::TrackingError, [numbers.get(Quantity::TrackingError)]),
+                Row::plain(Quantity::TrackingError, [Quantity::TrackingError.show(0.2).to_string()]),
             ],
         );
         table.add("4.3c", vec![row("4.3c-minimum-norm", Quantity::LostAt)]);

@@ -8,6 +8,8 @@ mod cli;
 mod commands;
 
 fn main() -> ExitCode {
+    #[cfg(unix)]
+    end_with_the_reader();
     let arguments = match cli::Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(refusal) => {
@@ -23,4 +25,11 @@ fn main() -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+/// Whoever reads no further, for instance `head`, ends the program without an error.
+#[cfg(unix)]
+fn end_with_the_reader() {
+    // SAFETY: no thread runs yet, and nothing in this program handles the signal.
+    unsafe { libc::signal(libc::SIGPIPE, libc::SIG_DFL) };
 }

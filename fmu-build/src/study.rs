@@ -201,7 +201,7 @@ pub fn pick_up_table(summaries: &[Summary]) -> Table {
             let values = numbers.map(|numbers| numbers.get(quantity));
             match claims::of(&summary.scenario.id, quantity) {
                 Some(claim) => Row::of(claim, values.map(Some)),
-                None => Row::plain(quantity, values),
+                None => Row::plain(quantity, values.map(|value| format!("{:#}", quantity.show(value)))),
             }
         };
         let Scenario { id, parameters, .. } = &summary.scenario;

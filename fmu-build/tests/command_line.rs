@@ -46,3 +46,12 @@ fn every_scenario_has_a_line() {
     assert_eq!(code, Some(0));
     assert_eq!(list.lines().count(), uam::scenarios::catalogue().unwrap().len());
 }
+
+#[test]
+#[cfg(unix)]
+fn who_reads_no_further_gets_no_error() {
+    let (reader, writer) = std::io::pipe().unwrap();
+    drop(reader);
+    let output = Command::new(env!("CARGO_BIN_EXE_fmu-build")).arg("list").stdout(writer).output().unwrap();
+    assert_eq!(String::from_utf8(output.stderr).unwrap(), "");
+}

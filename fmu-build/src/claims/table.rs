@@ -50,13 +50,13 @@ pub struct Table {
 }
 
 impl Row {
-    /// A quantity of which the thesis says nothing.
-    pub fn plain(quantity: Quantity, values: impl IntoIterator<Item = f64>) -> Self {
-        let cell = |value| Cell { text: quantity.show(value).to_string(), agrees: None };
+    /// A quantity of which the thesis says nothing, with numbers as they are shown.
+    pub fn plain(quantity: Quantity, numbers: impl IntoIterator<Item = String>) -> Self {
+        let cell = |text| Cell { text, agrees: None };
         Self {
             quantity: quantity.label().to_owned(),
             thesis: None,
-            cells: values.into_iter().map(cell).collect(),
+            cells: numbers.into_iter().map(cell).collect(),
             remark: None,
         }
     }

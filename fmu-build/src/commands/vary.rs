@@ -52,7 +52,7 @@ pub fn execute(arguments: &VaryArguments, out: &Path) -> Result<()> {
                 columns.iter().map(|summaries| summaries[0].outcomes[i].numbers.get(quantity)).collect();
             // Not a number: the vehicle has nothing of this kind.
             if values.iter().any(|value| !value.is_nan()) {
-                rows.push(Row::plain(quantity, values));
+                rows.push(Row::plain(quantity, values.into_iter().map(|value| quantity.show(value).to_string())));
             }
         }
         table.add(format!("{} · {} · by {}", scenarios[0].id, discretization.name(), names.join(", ")), rows);

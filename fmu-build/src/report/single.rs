@@ -24,7 +24,7 @@ pub fn report(run: &Run, schedule: &Schedule) -> Result<Report, Error> {
         match claims::of(&scenario.id, quantity).filter(|_| as_in_thesis) {
             Some(claim) => Some(Row::of(claim, [Some(value)])),
             // Not a number: the vehicle has nothing of this kind.
-            None => (!value.is_nan()).then(|| Row::plain(quantity, [value])),
+            None => (!value.is_nan()).then(|| Row::plain(quantity, [quantity.show(value).to_string()])),
         }
     };
     table.add(&scenario.id, Quantity::ALL.into_iter().filter_map(row).collect());
