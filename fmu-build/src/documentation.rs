@@ -1,8 +1,9 @@
 //! `documentation/index.html`: what a unit is and computes, how to connect it, and all its variables.
 
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use maud::{Markup, html};
 use uam::fmi2::Naming;
 
+use crate::html::document;
 use crate::units::Unit;
 use crate::{metadata, text};
 
@@ -17,41 +18,29 @@ const STYLE: &str = include_str!("documentation/style.css");
 pub fn page(unit: &Unit) -> String {
     let chapters = markdown::chapters(&text::complete(unit.text, unit.structure));
     let tables = tables::all(&unit.interface);
-    let markup = html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                meta name="color-scheme" content="light dark";
-                title { (unit.interface.identifier) }
-                style { (PreEscaped(STYLE)) }
+    let body = html! {
+        (head(unit))
+        nav {
+            @for chapter in &chapters { a href={ "#" (anchor(&chapter.title)) } { (chapter.title) } }
+            @for (heading, _) in &tables { a href={ "#" (anchor(heading)) } { (heading) } }
+        }
+        main {
+            @for (place, chapter) in chapters.iter().enumerate() {
+                section {
+                    h2 id=(anchor(&chapter.title)) { (chapter.title) }
+                    (chapter.content)
+                    @if place == 0 { (figure::vehicle(unit.structure)) }
+                }
             }
-            body {
-                (head(unit))
-                nav {
-                    @for chapter in &chapters { a href={ "#" (anchor(&chapter.title)) } { (chapter.title) } }
-                    @for (heading, _) in &tables { a href={ "#" (anchor(heading)) } { (heading) } }
-                }
-                main {
-                    @for (place, chapter) in chapters.iter().enumerate() {
-                        section {
-                            h2 id=(anchor(&chapter.title)) { (chapter.title) }
-                            (chapter.content)
-                            @if place == 0 { (figure::vehicle(unit.structure)) }
-                        }
-                    }
-                    @for (heading, table) in &tables {
-                        section { h2 id=(anchor(heading)) { (heading) } (table) }
-                    }
-                }
-                footer {
-                    p { (metadata::COPYRIGHT) ". " (metadata::LICENSE) ": see the folder " code { "licenses" } "." }
-                }
+            @for (heading, table) in &tables {
+                section { h2 id=(anchor(heading)) { (heading) } (table) }
             }
         }
+        footer {
+            p { (metadata::COPYRIGHT) ". " (metadata::LICENSE) ": see the folder " code { "licenses" } "." }
+        }
     };
-    markup.into_string()
+    document(unit.interface.identifier, STYLE, &body)
 }
 
 /// The name by which links find a heading.

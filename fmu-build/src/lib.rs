@@ -20,6 +20,7 @@ pub mod documentation;
 pub mod error;
 mod files;
 pub mod fmu;
+mod html;
 pub mod interface;
 pub mod metadata;
 pub mod package;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use maud::{Markup, html};
 
 mod arm;
 pub mod budget;
@@ -20,6 +20,7 @@ pub use figures::{Figure, Topic};
 pub use style::Paint;
 
 use crate::claims::Table;
+use crate::html::document;
 use crate::run::Run;
 
 /// A report that cannot be made.
@@ -88,19 +89,7 @@ impl Report {
 
 /// A page with a heading.
 fn page(title: &str, content: &Markup) -> String {
-    let page = html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                title { (title) }
-                style { (PreEscaped(style::SHEET)) }
-            }
-            body { main { h1 { (title) } (content) } }
-        }
-    };
-    page.into_string()
+    document(title, style::SHEET, &html! { main { h1 { (title) } (content) } })
 }
 
 fn table(table: &Table) -> Markup {

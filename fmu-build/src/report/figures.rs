@@ -7,7 +7,7 @@ use uam::parameters::Balance;
 
 use super::chart::{Curve, Panel, Scale, TIME};
 use super::{Error, Series, arm, panels};
-use crate::claims::LOST;
+use crate::claims::Quantity;
 
 /// What a figure is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -219,8 +219,8 @@ fn panel(series: &[Series<'_>], axis: &str, column: &str, factor: f64, until: Op
     let curve = |series: &Series<'_>| {
         let recording = &series.run.recording;
         let end = until.map_or(recording.len(), |until| {
-            let lost = recording.tracking_error().iter().position(|&error| error > LOST).unwrap_or(usize::MAX);
-            lost.min(recording.row_at(until).map_or(0, |row| row + 1))
+            let lost = Quantity::LostAt.measure(recording);
+            recording.row_at(until.min(lost)).map_or(0, |row| row + 1)
         });
         let values = recording.column(column).iter().take(end).map(|value| factor * value);
         Curve::new(series.paint, recording.times(), values)
