@@ -15,7 +15,7 @@ mod response;
 use nalgebra::Vector3;
 
 pub use planner::Controller;
-pub use resolution::{PATH_THRESHOLD, PseudoInverse, Query, Task};
+pub use resolution::{PATH_THRESHOLD, Problem, PseudoInverse, Task};
 
 use crate::bytes::Memory;
 use crate::error::Result;

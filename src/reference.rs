@@ -76,15 +76,18 @@ impl Profile {
     /// Way \[s\], velocity and acceleration \[1/s\] of a ramp from rest to velocity 1, `t` into its `duration`.
     #[inline]
     fn ramp(self, t: f64, duration: f64) -> [f64; 3] {
+        const TURN: f64 = std::f64::consts::TAU;
+        const PER_TURN: f64 = 1.0 / TURN;
+        let steepness = 1.0 / duration;
+        let share = t * steepness;
         match self {
-            Self::Trapezoidal => [0.5 * t * t / duration, t / duration, 1.0 / duration],
+            Self::Trapezoidal => [0.5 * t * share, share, steepness],
             Self::Smooth => {
-                let turn = std::f64::consts::TAU;
-                let (sin, cos) = (turn * t / duration).sin_cos();
+                let (sin, cos) = (TURN * share).sin_cos();
                 [
-                    0.5 * t * t / duration - duration / (turn * turn) * (1.0 - cos),
-                    t / duration - sin / turn,
-                    (1.0 - cos) / duration,
+                    0.5 * t * share - duration * (PER_TURN * PER_TURN) * (1.0 - cos),
+                    share - sin * PER_TURN,
+                    (1.0 - cos) * steepness,
                 ]
             }
         }

@@ -8,51 +8,41 @@ use common::random::Random;
 use common::{assert_close, cases};
 use nalgebra::{DMatrix, DVector, Dyn, SMatrix, SVD, SVector};
 use proptest::prelude::*;
-use uam::controller::{PATH_THRESHOLD, PseudoInverse, Query, Task};
+use uam::controller::{PATH_THRESHOLD, Problem, PseudoInverse, Task};
 use uam::parameters::PathAxes;
-use uam::planar::{Vec2, vec2};
+use uam::planar::vec2;
 
 /// Length of the stretched arm.
 const REACH: f64 = 0.5;
-
-struct Problem<const N: usize> {
-    path: SMatrix<f64, 2, N>,
-    velocity: Vec2,
-    task: Task<N>,
-}
 
 fn problem<const N: usize>(random: &mut Random) -> Problem<N> {
     Problem {
         path: SMatrix::from_fn(|_, _| random.about_zero(0.3)),
         velocity: random.vector(0.3),
-        task: Task { row: SVector::from_fn(|_, _| random.about_zero(0.3)), value: random.about_zero(0.1) },
+        moment: Task { row: SVector::from_fn(|_, _| random.about_zero(0.3)), value: random.about_zero(0.1) },
     }
 }
 
-impl<const N: usize> Problem<N> {
-    fn svd(&self) -> SVD<f64, Dyn, Dyn> {
-        DMatrix::from_fn(2, N, |row, column| self.path[(row, column)]).svd(true, true)
-    }
+fn svd<const N: usize>(problem: &Problem<N>) -> SVD<f64, Dyn, Dyn> {
+    DMatrix::from_fn(2, N, |row, column| problem.path[(row, column)]).svd(true, true)
+}
 
-    /// Path and task in one matrix.
-    fn extended(&self) -> (DMatrix<f64>, DVector<f64>) {
-        let row = |row: usize, i: usize| if row < 2 { self.path[(row, i)] } else { self.task.row[i] };
-        let right = DVector::from_vec(vec![self.velocity.x, self.velocity.y, self.task.value]);
-        (DMatrix::from_fn(3, N, row), right)
-    }
+/// Path and moment in one matrix.
+fn extended<const N: usize>(Problem { path, velocity, moment }: &Problem<N>) -> (DMatrix<f64>, DVector<f64>) {
+    let row = |row: usize, i: usize| if row < 2 { path[(row, i)] } else { moment.row[i] };
+    (DMatrix::from_fn(3, N, row), DVector::from_vec(vec![velocity.x, velocity.y, moment.value]))
+}
 
-    fn resolve(&self, with_task: bool) -> PseudoInverse<N> {
-        let task = with_task.then_some(self.task);
-        Query { path: self.path, axes: PathAxes::Both, velocity: self.velocity, task }.resolve(REACH)
-    }
+fn resolve<const N: usize>(problem: &Problem<N>, without_moment: bool) -> PseudoInverse<N> {
+    problem.resolve(PathAxes::Both, without_moment, REACH)
 }
 
 /// Away from singularities: the pseudo-inverse (N = 2..7).
 fn check_minimum_norm<const N: usize>(random: &mut Random) {
     let problem = problem::<N>(random);
-    let svd = problem.svd();
+    let svd = svd(&problem);
     let smallest = svd.singular_values.min();
-    let found = problem.resolve(false);
+    let found = resolve(&problem, false);
     assert_close(&[found.min_singular_value], &[smallest], 1e-13, "smallest singular value");
     assert_eq!(found.path_damped, smallest < PATH_THRESHOLD * REACH);
     if smallest > PATH_THRESHOLD * REACH {
@@ -66,9 +56,9 @@ fn check_minimum_norm<const N: usize>(random: &mut Random) {
 /// Path and task exactly; for N = 3 the solution of the extended Jacobian, for more its pseudo-inverse.
 fn check_extended<const N: usize>(random: &mut Random) {
     let problem = problem::<N>(random);
-    let (matrix, right) = problem.extended();
+    let (matrix, right) = extended(&problem);
     let smallest = matrix.singular_values().min();
-    let found = problem.resolve(true);
+    let found = resolve(&problem, true);
     if smallest > PATH_THRESHOLD * REACH {
         assert!(!found.path_damped && !found.task_damped);
         let expected = if N == 3 {
@@ -96,18 +86,18 @@ fn check_bounded<const N: usize>(random: &mut Random) {
         }
     }
     match (random.unit() * 4.0) as u32 {
-        0 => problem.task.row.fill(0.0),
-        1 => problem.task.row = problem.path.row(0).transpose(),
-        2 => problem.task.row *= scale,
+        0 => problem.moment.row.fill(0.0),
+        1 => problem.moment.row = problem.path.row(0).transpose(),
+        2 => problem.moment.row *= scale,
         _ => {}
     }
     for with_task in [false, true] {
-        let found = problem.resolve(with_task);
+        let found = resolve(&problem, with_task);
         assert!(found.rate.iter().all(|rate| rate.is_finite()), "{found:?}");
         assert!(found.min_singular_value.is_finite() && found.min_singular_value >= 0.0);
     }
     // The worst gain of damped least squares, 1 / (2 x lambda) at full damping, somewhat more on the way there.
-    let found = problem.resolve(false);
+    let found = resolve(&problem, false);
     let bound = problem.velocity.norm() / (PATH_THRESHOLD * REACH);
     assert!(found.rate.norm() <= 1.01 * bound, "{} of {bound}", found.rate.norm());
 }
@@ -139,7 +129,8 @@ proptest! {
 #[test]
 fn the_stretched_arm_gives_up_what_it_cannot_do() {
     let path = SMatrix::<f64, 2, 2>::from_columns(&[vec2(0.26, 0.0), vec2(0.13, 0.0)]);
-    let found = Query { path, axes: PathAxes::Both, velocity: vec2(0.1, 0.1), task: None }.resolve(0.26);
+    let moment = Task { row: SVector::zeros(), value: 0.0 };
+    let found = Problem { path, velocity: vec2(0.1, 0.1), moment }.resolve(PathAxes::Both, false, 0.26);
     let factor = 0.1 / (0.26_f64.powi(2) + 0.13_f64.powi(2));
     assert_close(found.rate.as_slice(), &[0.26 * factor, 0.13 * factor], 1e-14, "rate");
     assert!(found.path_damped && found.min_singular_value == 0.0);
@@ -149,8 +140,8 @@ fn the_stretched_arm_gives_up_what_it_cannot_do() {
 #[test]
 fn a_task_that_contradicts_the_path_gives_way() {
     let path = SMatrix::<f64, 2, 3>::from_columns(&[vec2(0.3, 0.1), vec2(0.1, 0.2), vec2(-0.1, 0.2)]);
-    let task = Task { row: path.row(0).transpose(), value: 1.0 };
-    let found = Query { path, axes: PathAxes::Both, velocity: vec2(0.1, -0.1), task: Some(task) }.resolve(REACH);
+    let moment = Task { row: path.row(0).transpose(), value: 1.0 };
+    let found = resolve(&Problem { path, velocity: vec2(0.1, -0.1), moment }, true);
     assert!(found.task_damped && !found.path_damped);
     assert_close((path * found.rate).as_slice(), &[0.1, -0.1], 1e-8, "velocity");
 }
@@ -159,15 +150,15 @@ fn a_task_that_contradicts_the_path_gives_way() {
 #[test]
 fn a_path_along_one_axis_leaves_the_other_alone() {
     let path = SMatrix::<f64, 2, 3>::from_columns(&[vec2(0.3, 0.0), vec2(0.1, 0.0), vec2(-0.1, 0.0)]);
-    let task = Task { row: SVector::from([0.1, 0.2, 0.3]), value: 1.0 };
-    let query = Query { path, axes: PathAxes::Horizontal, velocity: vec2(0.1, 0.0), task: Some(task) };
-    let found = query.resolve(REACH);
-    let rows = SMatrix::<f64, 2, 3>::from_rows(&[path.row(0).into_owned(), task.row.transpose()]);
+    let moment = Task { row: SVector::from([0.1, 0.2, 0.3]), value: 1.0 };
+    let problem = Problem { path, velocity: vec2(0.1, 0.0), moment };
+    let found = problem.resolve(PathAxes::Horizontal, true, REACH);
+    let rows = SMatrix::<f64, 2, 3>::from_rows(&[path.row(0).into_owned(), moment.row.transpose()]);
     let expected = rows.pseudo_inverse(0.0).unwrap() * vec2(0.1, 1.0);
     assert_close(found.rate.as_slice(), expected.as_slice(), 1e-13, "rate");
     assert_close(&[found.min_singular_value], &[path.row(0).norm()], 1e-15, "smallest singular value");
     assert!(!found.path_damped && !found.task_damped);
 
-    let found = Query { path: path * 0.01, ..query }.resolve(REACH);
+    let found = Problem { path: path * 0.01, ..problem }.resolve(PathAxes::Horizontal, true, REACH);
     assert!(found.path_damped && found.rate.iter().all(|rate| rate.is_finite()));
 }

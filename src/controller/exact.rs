@@ -84,8 +84,7 @@ impl<const N: usize> Outset<N> {
             plan = Plan::of(&resolved, motion);
             if (way.norm() + last.norm() * horizon) * self.resolver.reach <= ON_REFERENCE {
                 // So little is linear. Where the path is given up in part, it also says when nothing changes any more.
-                let base = response.base_way(&way);
-                self.dynamics.displace(&mut end.situation, base, &way, &motion.rate_after(horizon));
+                self.dynamics.displace(&mut end.situation, &way, &motion.rate_after(horizon));
                 self.weigh(&mut plan, impulse, horizon, end);
                 return Ok(plan);
             }

@@ -13,13 +13,13 @@ use crate::planar::{Turn, Vec2};
 use crate::qp::{Place, Places};
 
 /// The laws, the method and the present.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub(super) struct Outset<const N: usize> {
     pub dynamics: Dynamics<N>,
     pub resolver: Resolver,
     pub hold: Hold,
-    /// The prediction.
-    pub now: Prediction<N>,
+    /// The prediction; in a box, to be exchanged for another one without copying.
+    pub now: Box<Prediction<N>>,
     /// Rates and accelerations sent.
     pub motion: Motion<N>,
     /// Motions of the five plans before, the last one first.
@@ -32,8 +32,7 @@ impl<const N: usize> Outset<N> {
     /// How the system answers to the rates that the resolution may use, where the arm is at `node` and turned by
     /// `turn`, with the momentum of `state`.
     pub fn response(&self, node: &Node<N>, turn: Turn, state: &State<N>) -> Response<N> {
-        let response = Response::new(&self.dynamics, node, turn, state.momentum_in(turn));
-        if self.resolver.holds_balancer { response.holding(N - 1) } else { response }
+        Response::new(&self.dynamics, node, turn, state.momentum_in(turn), self.resolver.holds_balancer)
     }
 
     /// The rates that the method chooses for an interval of length `horizon` that begins now; `guess`: which of them
@@ -66,8 +65,7 @@ impl<const N: usize> Outset<N> {
         [t, size]: [f64; 2],
         end: &mut Prediction<N>,
     ) {
-        let base = response.base_velocity(rate);
-        self.dynamics.end_explicit(here, base, rate, way, [t, size], &mut end.situation);
+        self.dynamics.end_explicit(here, rate, way, [t, size], &mut end.situation);
         end.carried = response.carried_momentum(rate);
     }
 }

@@ -36,7 +36,7 @@ const UNFORESEEN: f64 = 2.0;
 const SHORTENED: f64 = 1e-9;
 
 /// Inverse kinematics of an aerial manipulator with `N` coordinates, with its prediction.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct Controller<const N: usize> {
     outset: Outset<N>,
     /// Accelerations sent at the communication point before.
@@ -52,8 +52,9 @@ pub struct Controller<const N: usize> {
     /// When the last plan was made, from the start, and for how long.
     planned_at: f64,
     horizon: f64,
-    /// The prediction at the end of the planned interval.
-    planned_end: Prediction<N>,
+    /// The prediction at the end of the planned interval, as long as that is untouched: nothing of it has passed.
+    planned_end: Box<Prediction<N>>,
+    untouched: bool,
     /// The end of the planned interval, and the wanted motion there if it does not depend on inputs: to be worked
     /// out once, which spares an eighth of a step with `exact`.
     foreseen: (f64, Target),
@@ -71,8 +72,8 @@ impl<const N: usize> Controller<N> {
         if dynamics.autopilot.mode == AutopilotMode::External {
             dynamics.set_mode(AutopilotMode::Pid);
         }
-        let now = Prediction::at_rest(dynamics.start(parameters));
-        let origin = now.end_effector();
+        let now = Box::new(Prediction::at_rest(dynamics.start(parameters)));
+        let (origin, planned_end) = (now.end_effector(), now.clone());
         Ok(Self {
             outset: Outset {
                 resolver: Resolver::new(structure, parameters, dynamics.vehicle.reach()),
@@ -90,7 +91,8 @@ impl<const N: usize> Controller<N> {
             slope_before: SVector::zeros(),
             planned_at: 0.0,
             horizon: ik.sample_time,
-            planned_end: now,
+            planned_end,
+            untouched: false,
             origin,
             aim: origin,
             foreseen: (f64::NAN, Target::AT_REST),
@@ -120,10 +122,13 @@ impl<const N: usize> Controller<N> {
         self.planned_end.situation.state.check(t)?;
         self.aim = target.displacement;
         let outset = &mut self.outset;
-        outset.before = [plan.motion, outset.before[0], outset.before[1], outset.before[2], outset.before[3]];
+        if self.discretization == Discretization::Exact {
+            outset.before.rotate_right(1);
+            outset.before[0] = plan.motion;
+        }
         outset.motion = plan.motion;
         outset.places = plan.places;
-        self.planned_at = t;
+        (self.planned_at, self.untouched) = (t, true);
         outputs.status = plan.status;
         outputs.min_singular_value = plan.min_singular_value;
         outputs.velocity_residual = plan.velocity_residual;
@@ -178,20 +183,18 @@ impl<const N: usize> Controller<N> {
 
     /// Advances the prediction by `size` \[s\] at the rates sent; `tuned`: by other laws than were planned with.
     fn predict(&mut self, t: f64, size: f64, tuned: bool) -> Result<()> {
-        let Self { outset, planned_end, .. } = self;
+        let Self { outset, planned_end: end, .. } = self;
         // The plan has already been there, if the host makes the step that it was made for.
-        if !tuned && size == self.horizon && (t - self.planned_at).abs() < SAME_TIME {
-            outset.now = *planned_end;
-        } else {
-            let mut end = outset.now;
+        if tuned || !self.untouched || size != self.horizon {
             if self.discretization == Discretization::Euler {
-                outset.predict_euler(t, size, &mut end);
+                outset.predict_euler(t, size, end);
             } else {
-                outset.carry_out(&mut Plan::moving(outset.motion), t, size, &mut end)?;
+                outset.carry_out(&mut Plan::moving(outset.motion), t, size, end)?;
             }
-            outset.now = end;
-            outset.now.situation.state.check(t + size)?;
+            end.situation.state.check(t + size)?;
         }
+        std::mem::swap(&mut outset.now, end);
+        self.untouched = false;
         self.slope_before = outset.motion.slope;
         outset.motion = outset.motion.after(size);
         Ok(())
@@ -227,6 +230,7 @@ impl<const N: usize> Memory for Controller<N> {
             planned_at,
             horizon,
             planned_end,
+            untouched,
             foreseen: _,
         } = self;
         outset.pass(tape);
@@ -234,6 +238,7 @@ impl<const N: usize> Memory for Controller<N> {
         aim.pass(tape);
         [planned_at, horizon].into_iter().for_each(|time| time.pass(tape));
         planned_end.pass(tape);
+        untouched.pass(tape);
     }
 }
 
@@ -267,7 +272,8 @@ impl<const N: usize> Planner for Controller<N> {
         self.grasp_in_time(now);
         let wanted = self.target(now, 0.0, inputs);
         if now - self.planned_at >= self.horizon - SAME_INSTANT * self.sample_time {
-            self.horizon = size * (self.sample_time / size - SAME_INSTANT).ceil().max(1.0);
+            let steps = self.sample_time / size - SAME_INSTANT;
+            self.horizon = if steps > 1.0 { size * steps.ceil() } else { size };
             self.plan(now, &wanted, inputs, outputs)?;
         }
         self.write_prediction(&wanted, outputs);
@@ -275,7 +281,8 @@ impl<const N: usize> Planner for Controller<N> {
     }
 
     fn rates(&self, inputs: &Inputs, t: f64) -> Rates {
-        let Outset { dynamics, now: Prediction { situation: now, .. }, .. } = &self.outset;
+        let Outset { dynamics, now, .. } = &self.outset;
+        let now = &now.situation;
         let mut rates = Rates {
             reference_velocity: self.target(t, 0.0, inputs).acceleration,
             predicted_end_effector: self.outset.end_effector_velocity(now, now.base()),
@@ -298,6 +305,6 @@ impl<const N: usize> Planner for Controller<N> {
     }
 
     fn clone_box(&self) -> Box<dyn Planner> {
-        Box::new(*self)
+        Box::new(self.clone())
     }
 }

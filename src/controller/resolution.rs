@@ -9,9 +9,9 @@ mod least_squares;
 mod pseudo_inverse;
 mod weights;
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::SVector;
 
-pub use pseudo_inverse::{PATH_THRESHOLD, PseudoInverse, Query, Task};
+pub use pseudo_inverse::{PATH_THRESHOLD, Problem, PseudoInverse, Task};
 
 use weights::Weights;
 
@@ -22,17 +22,6 @@ use crate::parameters::{MAX_COORDINATES, Parameters, PathAxes, Resolution, Struc
 use crate::planar::{Vec2, vec2};
 use crate::qp::{self, Places};
 use crate::vehicle::Vehicle;
-
-/// What is asked of the rates of one interval, linear in them.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Problem<const N: usize> {
-    /// Generalized Jacobian \[m\].
-    pub path: SMatrix<f64, 2, N>,
-    /// `path` * rate = `velocity` follows the path \[m/s\].
-    pub velocity: Vec2,
-    /// The rates that meet it exert no moment on the UAV in the mean: an impulse \[N m s\].
-    pub moment: Task<N>,
-}
 
 /// The interval whose rates are chosen.
 #[derive(Debug, Clone, Copy)]
@@ -145,29 +134,27 @@ impl Resolver {
     ) -> Resolved<N> {
         let found = match self.kind {
             // The smallest rates: right pseudo-inverse of the generalized Jacobian (thesis 1.8).
-            Resolution::MinimumNorm => self.along_path(problem, None),
+            Resolution::MinimumNorm => self.along_path(problem, false),
             Resolution::Gradient => {
                 self.nearest(problem, &gradient::preferred(vehicle, interval.beginning, self.gradient_gain))
             }
             // One more row below the generalized Jacobian (thesis 3.2, 3.3 and 3.6).
-            Resolution::ExtendedJacobian | Resolution::AccelerationLevel => {
-                self.along_path(problem, Some(problem.moment))
-            }
+            Resolution::ExtendedJacobian | Resolution::AccelerationLevel => self.along_path(problem, true),
             Resolution::LeastSquares => return self.least_squares(vehicle, interval, problem),
         };
         self.scaled(problem, &found)
     }
 
-    /// The smallest rates that follow the path and, beside it, meet the `task`.
-    fn along_path<const N: usize>(&self, problem: &Problem<N>, task: Option<Task<N>>) -> PseudoInverse<N> {
-        let Problem { path, velocity, .. } = *problem;
-        self.weights.resolve(&Query { path, axes: self.axes, velocity, task }, self.reach)
+    /// The smallest rates that follow the path and, if that is asked for, exert no moment beside it.
+    #[inline]
+    fn along_path<const N: usize>(&self, problem: &Problem<N>, without_moment: bool) -> PseudoInverse<N> {
+        self.weights.resolve(problem, self.axes, without_moment, self.reach)
     }
 
     /// The rates nearest to `preferred` ones that follow the path.
     pub fn nearest<const N: usize>(&self, problem: &Problem<N>, preferred: &SVector<f64, N>) -> PseudoInverse<N> {
         let velocity = problem.velocity - problem.path * preferred;
-        let added = self.along_path(&Problem { velocity, ..*problem }, None);
+        let added = self.along_path(&Problem { velocity, ..*problem }, false);
         PseudoInverse { rate: preferred + added.rate, ..added }
     }
 

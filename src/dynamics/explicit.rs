@@ -27,26 +27,25 @@ impl<const N: usize> Dynamics<N> {
         self.carried_load(node, &self.carrier(&flow, &rate), load) * size
     }
 
-    /// Brings `end`, whose state has begun the step in `here`, to its end: after the time `size` \[s\] from time `t`
-    /// with the velocity `base` of the UAV (axes of the UAV frame), at the rates `rate`, over the way `way` of the
-    /// coordinates.
+    /// Brings `end`, whose state has begun the step in `here`, to its end: after the time `size` \[s\] from time `t` at
+    /// the rates `rate`, over the way `way` of the coordinates.
     pub fn end_explicit(
         &self,
         here: &Situation<N>,
-        base: Twist,
         rate: &SVector<f64, N>,
         way: &SVector<f64, N>,
         [t, size]: [f64; 2],
         end: &mut Situation<N>,
     ) {
-        let state = &mut end.state;
+        let (state, matrix) = (&mut end.state, &here.node.matrix);
+        let arm = matrix.of_rates(rate);
+        let base = self.base_motion(&here.node, state.momentum_in(here.turn), arm);
         state.velocity = in_inertial_frame(here.turn, base);
         state.rate = *rate;
         state.pose += state.velocity * size;
         state.position += way;
         if self.on_carriage() {
-            let matrix = &here.node.matrix;
-            let h = matrix.of_base(base) + matrix.of_rates(rate);
+            let h = matrix.of_base(base) + arm;
             (state.momentum.y, state.momentum.z) = (h.linear.y, h.angular);
         }
         if refreshed(t) != refreshed(t + size) {
@@ -59,10 +58,11 @@ impl<const N: usize> Dynamics<N> {
         end.node.follow(&self.vehicle, &here.node, way, state.held, *rate);
     }
 
-    /// Displaces a `situation` by so little that all is linear in it: the coordinates by `way`, the base by `base` (axes
-    /// of the UAV frame), at whose end the rates are `rate`. Momentum stays.
-    pub fn displace(&self, situation: &mut Situation<N>, base: Twist, way: &SVector<f64, N>, rate: &SVector<f64, N>) {
+    /// Displaces the coordinates in `situation` by a `way` so short that all is linear in it, after which the rates are
+    /// `rate`. Momentum stays, and the base gives way.
+    pub fn displace(&self, situation: &mut Situation<N>, way: &SVector<f64, N>, rate: &SVector<f64, N>) {
         let Situation { state, turn, node } = situation;
+        let base = self.base_motion(node, Twist::ZERO, node.matrix.of_rates(way));
         state.pose += in_inertial_frame(*turn, base);
         state.position += way;
         state.rate = *rate;

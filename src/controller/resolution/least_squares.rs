@@ -42,7 +42,7 @@ impl Resolver {
             path.column_mut(i).fill(0.0);
             moment.row[i] = 0.0;
         }
-        let wanted = self.along_path(&Problem { path, velocity, moment }, Some(moment));
+        let wanted = self.along_path(&Problem { path, velocity, moment }, true);
         let mut resolved = Resolved {
             rate: rate + wanted.rate,
             status: wanted.status(),

@@ -27,17 +27,15 @@ pub struct Task<const N: usize> {
     pub value: f64,
 }
 
-/// What is asked of the rates: `path` * rate = `velocity` and, if possible beside it, the `task`.
+/// What is asked of the rates of one interval, linear in them.
 #[derive(Debug, Clone, Copy)]
-pub struct Query<const N: usize> {
-    /// Velocity of the end effector per rate \[m\].
+pub struct Problem<const N: usize> {
+    /// Generalized Jacobian, velocity of the end effector per rate \[m\].
     pub path: SMatrix<f64, 2, N>,
-    /// The axes that count; the row of the other one is zero.
-    pub axes: PathAxes,
-    /// Wanted velocity \[m/s\].
+    /// `path` * rate = `velocity` follows the path \[m/s\].
     pub velocity: Vec2,
-    /// What else is asked for.
-    pub task: Option<Task<N>>,
+    /// The rates that meet it exert no moment on the UAV in the mean: an impulse \[N m s\].
+    pub moment: Task<N>,
 }
 
 /// Rates with what had to be given up for them.
@@ -65,7 +63,7 @@ impl<const N: usize> PseudoInverse<N> {
 }
 
 impl PseudoInverse<MAX_COORDINATES> {
-    /// Of the first `N` coordinates, where the others have been added by [`Query::padded`].
+    /// Of the first `N` coordinates, where the others have been added by [`Problem::padded`].
     pub(super) fn of_the_first<const N: usize>(&self) -> PseudoInverse<N> {
         let Self { rate, min_singular_value, path_damped, task_damped } = *self;
         PseudoInverse { rate: rate.fixed_resize::<N, 1>(0.0), min_singular_value, path_damped, task_damped }
@@ -112,39 +110,42 @@ impl Gram {
     }
 }
 
-impl<const N: usize> Query<N> {
-    /// The smallest rates that meet it, for an arm that is stretched as long as `reach` \[m\].
+impl<const N: usize> Problem<N> {
+    /// The smallest rates that follow the path and, if that is asked for, exert as little moment beside it as possible.
+    ///
+    /// `axes`: those along which the path counts; the row of the other one is zero. `reach`: length of the stretched
+    /// arm \[m\].
     #[must_use]
-    pub fn resolve(&self, reach: f64) -> PseudoInverse<N> {
-        let gram = Gram::new(&self.path, self.axes);
+    pub fn resolve(&self, axes: PathAxes, without_moment: bool, reach: f64) -> PseudoInverse<N> {
+        let gram = Gram::new(&self.path, axes);
         let threshold = PATH_THRESHOLD * reach;
         // Where nothing is damped, without directions and their square roots: a third of the time.
         if gram.smallest >= threshold * threshold
-            && let Some(rate) = self.undamped(&gram)
+            && let Some(rate) = self.undamped(&gram, without_moment)
         {
             let min_singular_value = gram.smallest.sqrt();
             return PseudoInverse { rate, min_singular_value, path_damped: false, task_damped: false };
         }
-        self.padded().damped(&gram, threshold).of_the_first()
+        self.padded().damped(&gram, without_moment, threshold).of_the_first()
     }
 
     /// The same with more coordinates, which move nothing.
-    pub(super) fn padded(&self) -> Query<MAX_COORDINATES> {
-        let Self { path, axes, velocity, task } = self;
-        let task = task.map(|Task { row, value }| Task { row: row.fixed_resize::<MAX_COORDINATES, 1>(0.0), value });
-        Query { path: path.fixed_resize::<2, MAX_COORDINATES>(0.0), axes: *axes, velocity: *velocity, task }
+    pub(super) fn padded(&self) -> Problem<MAX_COORDINATES> {
+        let Self { path, velocity, moment: Task { row, value } } = *self;
+        let row = row.fixed_resize::<MAX_COORDINATES, 1>(0.0);
+        Problem { path: path.fixed_resize::<2, MAX_COORDINATES>(0.0), velocity, moment: Task { row, value } }
     }
 
-    /// [`Query::resolve`] far from singular configurations; none if that of the task is not far.
+    /// [`Problem::resolve`] far from singular configurations; none if that of the task is not far.
     #[inline]
-    fn undamped(&self, gram: &Gram) -> Option<SVector<f64, N>> {
+    fn undamped(&self, gram: &Gram, without_moment: bool) -> Option<SVector<f64, N>> {
         let &Gram { xx, xy, yy, determinant, .. } = gram;
-        let Self { path, velocity, task, .. } = self;
+        let Self { path, velocity, moment: task } = self;
         let inverse = 1.0 / determinant;
         // J^T (J J^T)^-1 w.
         let lift = |w: Vec2| path.transpose() * (vec2(yy * w.x - xy * w.y, xx * w.y - xy * w.x) * inverse);
         let mut rate = lift(*velocity);
-        if let Some(task) = task {
+        if without_moment {
             let free = task.row - lift(path * task.row);
             let left = free.norm_squared();
             if left < TASK_THRESHOLD * TASK_THRESHOLD * task.row.norm_squared() || left < f64::MIN_POSITIVE {
@@ -156,13 +157,13 @@ impl<const N: usize> Query<N> {
     }
 }
 
-impl Query<MAX_COORDINATES> {
-    /// [`Query::resolve`] wherever the arm is, with singular values below `threshold` \[m\] damped. For the largest
+impl Problem<MAX_COORDINATES> {
+    /// [`Problem::resolve`] wherever the arm is, with singular values below `threshold` \[m\] damped. For the largest
     /// number of coordinates: the library holds one copy.
     #[cold]
     #[inline(never)]
-    fn damped(&self, gram: &Gram, threshold: f64) -> PseudoInverse<MAX_COORDINATES> {
-        let Self { path, velocity, task, .. } = self;
+    fn damped(&self, gram: &Gram, without_moment: bool, threshold: f64) -> PseudoInverse<MAX_COORDINATES> {
+        let Self { path, velocity, moment: task } = self;
         // The directions in which the arm moves easily and hardly: each is damped on its own.
         let strong = gram.strong();
         let weak = perp(strong);
@@ -176,7 +177,7 @@ impl Query<MAX_COORDINATES> {
 
         let mut rate = lift(*velocity);
         let mut task_damped = false;
-        if let Some(task) = task {
+        if without_moment {
             let free = task.row - lift(path * task.row);
             let size = task.row.norm();
             let share = free.norm() / size.max(f64::MIN_POSITIVE);

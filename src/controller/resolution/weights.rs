@@ -3,8 +3,8 @@
 
 use nalgebra::SVector;
 
-use super::pseudo_inverse::{Gram, PseudoInverse, Query};
-use crate::parameters::{Joint, MAX_COORDINATES};
+use super::pseudo_inverse::{Gram, Problem, PseudoInverse};
+use crate::parameters::{Joint, MAX_COORDINATES, PathAxes};
 
 /// The weights of the joints' rates; what balances the arm has none.
 #[derive(Debug, Clone, Copy)]
@@ -23,11 +23,18 @@ impl Weights {
             if joints.iter().all(|joint| joint.weight == joints[0].weight) { None } else { Some(scale(joints)) };
     }
 
-    /// [`Query::resolve`] in the weighted norm.
-    pub fn resolve<const N: usize>(&self, query: &Query<N>, reach: f64) -> PseudoInverse<N> {
+    /// [`Problem::resolve`] in the weighted norm.
+    #[inline]
+    pub fn resolve<const N: usize>(
+        &self,
+        problem: &Problem<N>,
+        axes: PathAxes,
+        without_moment: bool,
+        reach: f64,
+    ) -> PseudoInverse<N> {
         match &self.scale {
-            None => query.resolve(reach),
-            Some(scale) => weighted(scale, query.padded(), reach).of_the_first(),
+            None => problem.resolve(axes, without_moment, reach),
+            Some(scale) => weighted(scale, problem.padded(), axes, without_moment, reach).of_the_first(),
         }
     }
 }
@@ -44,16 +51,16 @@ fn scale(joints: &[Joint]) -> SVector<f64, MAX_COORDINATES> {
 #[inline(never)]
 fn weighted(
     scale: &SVector<f64, MAX_COORDINATES>,
-    mut query: Query<MAX_COORDINATES>,
+    mut problem: Problem<MAX_COORDINATES>,
+    axes: PathAxes,
+    without_moment: bool,
     reach: f64,
 ) -> PseudoInverse<MAX_COORDINATES> {
-    let min_singular_value = Gram::new(&query.path, query.axes).smallest.sqrt();
-    for (mut column, scale) in query.path.column_iter_mut().zip(scale) {
+    let min_singular_value = Gram::new(&problem.path, axes).smallest.sqrt();
+    for (mut column, scale) in problem.path.column_iter_mut().zip(scale) {
         column *= *scale;
     }
-    if let Some(task) = &mut query.task {
-        task.row.component_mul_assign(scale);
-    }
-    let found = query.resolve(reach);
+    problem.moment.row.component_mul_assign(scale);
+    let found = problem.resolve(axes, without_moment, reach);
     PseudoInverse { rate: found.rate.component_mul(scale), min_singular_value, ..found }
 }
