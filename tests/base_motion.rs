@@ -6,8 +6,9 @@ mod common;
 
 use common::assert_close;
 use common::coupling::Coupling;
+use common::model::{Coordinates, Model, angular_momentum, momentum};
 use common::run::Run;
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::{DMatrix, Matrix2, Vector2, Vector3};
 use uam::controller;
 use uam::parameters::{Balance, BaseModel, Discretization, Resolution};
 use uam::scenarios::{default_parameters, find};
@@ -60,20 +61,6 @@ fn the_generalized_jacobians_are_those_of_the_thesis() {
     }
 }
 
-/// Where each body is at base pose x, y, roll and the joint angles: mass, inertia, place, angle. UAV, links, payload.
-fn bodies(pose: [f64; 3], q: &[f64], payload: f64) -> Vec<[f64; 5]> {
-    let [mut x, mut y, mut angle] = pose;
-    let mut bodies = vec![[4.2, 0.4097, x, y, angle]];
-    for q in q {
-        angle += q;
-        let (dx, dy) = (0.13 * angle.sin(), -0.13 * angle.cos());
-        bodies.push([1.0, 6e-4, x + 0.5 * dx, y + 0.5 * dy, angle]);
-        (x, y) = (x + dx, y + dy);
-    }
-    bodies.push([payload, 0.0, x, y, angle]);
-    bodies
-}
-
 /// From rest and without gravity, 2 or 3 links with and without payload move the base as the momentum that a model
 /// conserves wants it, and the end effector as it is wanted: by differences of places, without any Jacobian.
 #[test]
@@ -91,49 +78,30 @@ fn every_model_conserves_its_momentum_from_rest() {
         parameters.ik.sample_time = 0.01;
         (parameters.payload.mass, parameters.payload.grasp_time) = (payload, if payload > 0.0 { -1.0 } else { 1e9 });
         let outputs = Coupling::new(links(number), &parameters).commands;
-        let (rate, start) = (&outputs.rate_command[..number], parameters.joints.iter().map(|joint| joint.start));
-        let start: Vec<f64> = start.take(number).collect();
 
-        // Change of place per change of one coordinate: base x, y and roll, then all joints in proportion to their rates.
-        const SMALL: f64 = 1e-5;
-        let speed = rate.iter().map(|rate| rate * rate).sum::<f64>().sqrt();
-        let moved = |i: usize, by: f64| {
-            let mut pose = [0.0; 3];
-            let mut q = start.clone();
-            match pose.get_mut(i) {
-                Some(coordinate) => *coordinate = by,
-                None => q.iter_mut().zip(rate).for_each(|(q, rate)| *q += rate / speed * by),
-            }
-            bodies(pose, &q, payload)
-        };
-        let momentum = |i: usize| {
-            let (ahead, behind) = (moved(i, SMALL), moved(i, -SMALL));
-            let now = bodies([0.0; 3], &start, payload);
-            let mut sum = nalgebra::Vector3::<f64>::zeros();
-            for ((ahead, behind), [mass, inertia, x, y, _]) in ahead.iter().zip(&behind).zip(&now) {
-                let velocity: Vec<f64> = (2..5).map(|k| (ahead[k] - behind[k]) / (2.0 * SMALL)).collect();
-                sum.x += mass * velocity[0];
-                sum.y += mass * velocity[1];
-                sum.z += inertia * velocity[2] + mass * (x * velocity[1] - y * velocity[0]);
-            }
-            sum
+        let vehicle = Model { structure: links(number), parameters: parameters.clone() };
+        let angles = parameters.joints[..number].iter().map(|joint| joint.start).collect();
+        let start = Coordinates { pose: Vector3::zeros(), q: angles };
+        // Base x, y and roll, each alone, and the arm as the controller moves it.
+        let still = Coordinates { pose: Vector3::zeros(), q: vec![0.0; number] };
+        let base: [Coordinates; 3] =
+            std::array::from_fn(|i| Coordinates { pose: Vector3::ith(i, 1.0), ..still.clone() });
+        let arm = Coordinates { q: outputs.rate_command[..number].to_vec(), ..still };
+        let momentum_of = |speed: &Coordinates| {
+            let bodies = vehicle.bodies(&start, speed, payload > 0.0);
+            momentum(&bodies).push(angular_momentum(&bodies, Vector2::zeros()))
         };
         let conserved = match model {
             BaseModel::Full => 3,
             BaseModel::Translating => 2,
             _ => 1,
         };
-        let columns: Vec<_> = (0..4).map(momentum).collect();
-        let matrix = nalgebra::DMatrix::from_fn(conserved, conserved, |row, column| columns[column][row]);
-        let arm = nalgebra::DVector::from_fn(conserved, |row, _| -speed * columns[3][row]);
-        let base = matrix.lu().solve(&arm).unwrap();
+        let columns = base.each_ref().map(momentum_of);
+        let matrix = DMatrix::from_fn(conserved, conserved, |row, column| columns[column][row]);
+        let reaction = matrix.lu().solve(&-momentum_of(&arm).rows(0, conserved)).unwrap();
 
-        let mut velocity = Vector2::zeros();
-        for (i, share) in base.iter().copied().enumerate().chain([(3, speed)]) {
-            let (ahead, behind) = (moved(i, SMALL), moved(i, -SMALL));
-            let (ahead, behind) = (ahead[number + 1], behind[number + 1]);
-            velocity += Vector2::new(ahead[2] - behind[2], ahead[3] - behind[3]) * (share / (2.0 * SMALL));
-        }
+        let speed = Coordinates { pose: Vector3::from_fn(|i, _| reaction.get(i).copied().unwrap_or(0.0)), ..arm };
+        let velocity = vehicle.velocity_of(&start, &speed, Model::end_effector);
         let wanted = parameters.reference.at(0.01).velocity;
         assert!(wanted.norm() > 1e-6);
         let error = (velocity - wanted).norm() / wanted.norm();
