@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import os
 import subprocess
 import sys
@@ -10,9 +11,11 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 ROOT = Path(__file__).parents[2]
+CARGO = os.environ.get("CARGO", "cargo")
 TARGET = ROOT / os.environ.get("CARGO_TARGET_DIR", "target")
 sys.path.insert(0, str(ROOT / "examples"))
 
@@ -47,10 +50,26 @@ class Pair:
 
 def program(*arguments: str) -> str:
     """Run the project's program and return what it prints."""
-    command = [os.environ.get("CARGO", "cargo"), "run", "--release", "--quiet", "--locked", "--"]
+    command = [CARGO, "run", "--release", "--quiet", "--locked", "--"]
     run = subprocess.run([*command, *arguments], cwd=ROOT, capture_output=True, text=True)
     assert run.returncode == 0, run.stderr
     return run.stdout
+
+
+def read_table(path: Path) -> dict[str, np.ndarray]:
+    """The columns of a csv by their headings; true and false are 1 and 0."""
+    with path.open(newline="") as file:
+        header, *rows = csv.reader(file)
+    numbers = {"true": "1", "false": "0"}
+    columns = zip(*([numbers.get(value.lower(), value) for value in row] for row in rows))
+    return {name: np.array(column, dtype=float) for name, column in zip(header, columns)}
+
+
+def simulate(scenario: str, folder: Path, **options: float) -> dict[str, np.ndarray]:
+    """What the project's own master records: columns by the names of the variables."""
+    given = [text for name, value in options.items() for text in (f"--{name}", str(value))]
+    program("simulate", scenario, *given, "--out", str(folder))
+    return read_table(folder / f"{scenario}.csv")
 
 
 @cache

@@ -7,10 +7,10 @@ prints a table: to how many digits do the numbers agree? What is not there is na
 
 from __future__ import annotations
 
-import csv
 import os
 import subprocess
 import sys
+from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
 from functools import cache
 from importlib.metadata import distributions
@@ -18,7 +18,7 @@ from pathlib import Path
 
 import numpy as np
 
-from conftest import ROOT, TARGET, program
+from conftest import CARGO, FULL, ROOT, TARGET, read_table, simulate
 
 MASTERS = Path(__file__).parent / "masters"
 ENVIRONMENTS = TARGET / "hosts"
@@ -44,42 +44,58 @@ class MissingError(Exception):
     """A host that this machine cannot have, and why."""
 
 
-@dataclass(frozen=True)
-class Host:
+class Host(ABC):
     """A program with a master of its own, and how it deals with the first step."""
+
+    name: str
+    package: str
+    # Whether the plant's first step is driven by the controller's initial outputs, or by zeros.
+    hands_over: bool = True
+    # Seconds of the pick-up; less where a host is slow.
+    stop: float = STOP
+
+    @abstractmethod
+    def version(self) -> str:
+        """Of the package."""
+
+    @abstractmethod
+    def run(self, folder: Path) -> Table:
+        """The recorded outputs over the communication points.
+
+        Raises MissingError where this machine has no such host.
+        """
+
+
+@dataclass(frozen=True)
+class Script(Host):
+    """A package for Python, and the script in the folder `masters` that uses it."""
 
     name: str
     script: str
     package: str
     options: tuple[str, ...] = ()
     environment: str = "requirements"
-    # Whether the plant's first step is driven by the controller's initial outputs, or by zeros.
     hands_over: bool = True
-    # Seconds of the pick-up; less where a host is slow.
     stop: float = STOP
 
     def version(self) -> str:
         return installed(python_of(self.environment))[self.package]
 
     def run(self, folder: Path) -> Table:
-        """The recorded outputs over the communication points."""
         python = python_of(self.environment)
         if self.package not in installed(python):
             raise MissingError(f"{self.package} cannot be installed")
         table = folder / f"{self.script}{''.join(self.options)}.csv"
         command = [python, MASTERS / f"{self.script}.py", folder, str(STEP), str(self.stop), table]
         execute([*command, *self.options])
-        return read(table)
+        return read_table(table)
 
 
-@dataclass(frozen=True)
-class Crate:
+class Crate(Host):
     """A foreign crate, used by an example of the tests' own crate."""
 
-    name: str = "fmi crate, parallel"
-    package: str = "fmi"
-    hands_over: bool = True
-    stop: float = STOP
+    name = "fmi crate, parallel"
+    package = "fmi"
 
     def version(self) -> str:
         lines = (ROOT / "Cargo.lock").read_text().splitlines()
@@ -89,20 +105,16 @@ class Crate:
         if "LIBCLANG_PATH" not in os.environ:
             raise MissingError("LIBCLANG_PATH is not set; source tests/environment.sh")
         table = folder / "fmi-crate.csv"
-        cargo = [os.environ.get("CARGO", "cargo"), "run", "--quiet", "--locked", "--package"]
-        example = ["fmi-host", "--example", "couple", "--", folder, str(STEP), str(STOP), table]
-        execute([*cargo, *example])
-        return read(table)
+        cargo = [CARGO, "run", "--quiet", "--locked", "--package", "fmi-host"]
+        execute([*cargo, "--example", "couple", "--", folder, str(STEP), str(self.stop), table])
+        return read_table(table)
 
 
-@dataclass(frozen=True)
-class FmiSim:
+class FmiSim(Host):
     """fmi-sim runs one unit: the controller, which predicts the whole pick-up on its own."""
 
-    name: str = "fmi-sim, controller alone"
-    package: str = "fmi-sim"
-    hands_over: bool = True
-    stop: float = STOP
+    name = "fmi-sim, controller alone"
+    package = "fmi-sim"
 
     def version(self) -> str:
         return "0.7.0"
@@ -112,15 +124,9 @@ class FmiSim:
         root = ENVIRONMENTS / self.package
         program = root / "bin" / "fmi-sim"
         if not program.exists():
-            if not os.environ.get("UAM_FULL"):
+            if not FULL:
                 raise MissingError("it takes minutes to build: UAM_FULL=1 does it")
-            cargo = [
-                os.environ.get("CARGO", "cargo"),
-                "install",
-                self.package,
-                "--locked",
-                "--debug",
-            ]
+            cargo = [CARGO, "install", self.package, "--locked", "--debug"]
             execute([*cargo, "--version", self.version(), "--root", root])
         return program
 
@@ -129,21 +135,23 @@ class FmiSim:
         command = [self.program(), "--model", folder / "uam_controller.fmu", "-o", table]
         # -n 0: a row for every step.
         execute([*command, "co-simulation", "--step", str(STEP), "-f", str(self.stop), "-n", "0"])
-        return read(table)
+        return read_table(table)
 
 
-HOSTS: list[Host | Crate | FmiSim] = [
-    Host("FMPy, a parallel loop", "with_fmpy", "fmpy"),
-    Host("libcosim", "with_libcosim", "libcosimpy"),
-    Host("libcosim, from the SSP", "with_libcosim_ssp", "libcosimpy"),
-    Host("Ecos, from the SSP", "with_ecos", "ecospy"),
-    Host("container, parallel", "with_container", "fmu-manipulation-toolbox"),
-    Host("container, plant first", "with_container", "fmu-manipulation-toolbox", ("--sequential",)),
-    Host("fmuloader, a parallel loop", "with_fmuloader", "fmuloader"),
+HOSTS: list[Host] = [
+    Script("FMPy, a parallel loop", "with_fmpy", "fmpy"),
+    Script("libcosim", "with_libcosim", "libcosimpy"),
+    Script("libcosim, from the SSP", "with_libcosim_ssp", "libcosimpy"),
+    Script("Ecos, from the SSP", "with_ecos", "ecospy"),
+    Script("container, parallel", "with_container", "fmu-manipulation-toolbox"),
+    Script(
+        "container, plant first", "with_container", "fmu-manipulation-toolbox", ("--sequential",)
+    ),
+    Script("fmuloader, a parallel loop", "with_fmuloader", "fmuloader"),
     Crate(),
     FmiSim(),
-    Host("FMPy, from the SSP", "with_fmpy_ssp", "fmpy", hands_over=False),
-    Host("CoFMUpy", "with_cofmupy", "cofmupy", (), "requirements-cofmupy", False, 6.0),
+    Script("FMPy, from the SSP", "with_fmpy_ssp", "fmpy", hands_over=False),
+    Script("CoFMUpy", "with_cofmupy", "cofmupy", (), "requirements-cofmupy", False, 6.0),
 ]
 
 
@@ -179,16 +187,7 @@ def agreement(native: Table, host: Table) -> Agreement:
 def native() -> tuple[Path, Table]:
     """The native master's numbers, and the folder with the files that it used."""
     folder = ENVIRONMENTS / "files"
-    program("simulate", SCENARIO, "--step", str(STEP), "--stop", str(STOP), "--out", str(folder))
-    return folder, read(folder / f"{SCENARIO}.csv")
-
-
-def read(path: Path) -> Table:
-    with path.open(newline="") as file:
-        header, *rows = csv.reader(file)
-    numbers = {"true": "1", "false": "0"}
-    columns = zip(*([numbers.get(value, value) for value in row] for row in rows))
-    return {name: np.array(column, dtype=float) for name, column in zip(header, columns)}
+    return folder, simulate(SCENARIO, folder, step=STEP, stop=STOP)
 
 
 def execute(command: list[str | Path]) -> str:

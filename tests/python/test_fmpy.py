@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import shutil
 import subprocess
 import sys
@@ -17,7 +16,7 @@ from fmpy.validation import validate_fmu
 
 import couple
 import scenario as scenario_file
-from conftest import ALL, ROOT, Pair, Structure, build, program
+from conftest import ALL, ROOT, Pair, Structure, build, program, read_table, simulate
 
 SSV = "{http://ssp-standard.org/SSP1/SystemStructureParameterValues}"
 # The thesis' joint angles at the start of the pick-up [rad].
@@ -84,10 +83,7 @@ def test_coupled_as_in_the_native_program(
 ) -> None:
     """The example gives the numbers of the project's own master, to rounding, over 30 s."""
     ours = couple.couple(pair.plant.parent, step, **{"ik.resolution": resolution})
-    program("simulate", scenario, "--step", str(step), "--out", str(tmp_path))
-    with (tmp_path / f"{scenario}.csv").open(newline="") as file:
-        header, *rows = csv.reader(file)
-    native = dict(zip(header, np.array(rows, dtype=float).T))
+    native = simulate(scenario, tmp_path, step=step)
     assert set(ours) <= set(native)
     for name, values in ours.items():
         np.testing.assert_allclose(values, native[name], rtol=0, atol=1e-12, err_msg=name)
@@ -106,10 +102,7 @@ def test_exported_scenarios_as_in_the_native_program(
     ours = scenario_file.run(
         tmp_path / f"{name}.toml", build(structure).plant.parent, step=step, stop=stop
     )
-    program("simulate", name, "--step", str(step), "--stop", str(stop), "--out", str(tmp_path))
-    with (tmp_path / f"{name}.csv").open(newline="") as file:
-        header, *rows = csv.reader(file)
-    native = dict(zip(header, np.array(rows, dtype=float).T))
+    native = simulate(name, tmp_path, step=step, stop=stop)
     for quantity, values in ours.items():
         np.testing.assert_allclose(values, native[quantity], rtol=0, atol=1e-12, err_msg=quantity)
     # The other way of writing the same: a parameter set by the SSP standard.
@@ -156,9 +149,9 @@ def test_command_line_of_fmpy(pair: Pair, tmp_path: Path, unit: str) -> None:
     options = ["--stop-time", "1", "--output-interval", "0.01", "--output-file", result]
     simulated = subprocess.run([*fmpy, "simulate", fmu, *options], capture_output=True, text=True)
     assert simulated.returncode == 0, simulated.stdout + simulated.stderr
-    header, *rows = csv.reader(result.read_text().splitlines())
-    assert len(rows) == 101
+    table = read_table(result)
+    assert len(table["time"]) == 101
     outputs = {
         v.name for v in read_model_description(fmu).modelVariables if v.causality == "output"
     }
-    assert set(header) == {"time", *outputs}
+    assert set(table) == {"time", *outputs}

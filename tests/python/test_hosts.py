@@ -7,7 +7,7 @@ import subprocess
 import pytest
 
 from conftest import Pair
-from hosts import HOSTS, Crate, FmiSim, Host, MissingError, agreement, installed, native, python_of
+from hosts import HOSTS, Host, MissingError, agreement, installed, native, python_of
 
 # Differences of rounding: foreign masters add up time, ours multiplies.
 ROUNDING = 9.5
@@ -17,7 +17,7 @@ FIRST_STEP = 9.0
 
 
 @pytest.mark.parametrize("host", HOSTS, ids=lambda host: host.name)
-def test_the_pick_up_has_the_same_numbers(host: Host | Crate | FmiSim) -> None:
+def test_the_pick_up_has_the_same_numbers(host: Host) -> None:
     folder, ours = native()
     try:
         found = agreement(ours, host.run(folder))

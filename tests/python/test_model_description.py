@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import re
-import shutil
 import zipfile
 from collections.abc import Iterator
 from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
-from fmpy import extract, read_model_description
-from fmpy.fmi2 import FMU2Slave
 
 from conftest import ALL, Pair, build
+from unit import Unit
 
 Element = ElementTree.Element
 UNITS = [(structure, unit) for structure in ALL for unit in ("controller", "plant")]
@@ -166,58 +164,42 @@ COMPANY = {
 @pytest.mark.parametrize("unit", ["controller", "plant"])
 def test_initial_unknowns_depend_on_what_they_list(pair: Pair, unit: str) -> None:
     """Every parameter is changed in turn: what changes of the initial outputs must list it."""
-    fmu = str(getattr(pair, unit))
-    model = read_model_description(fmu)
-    names = [variable.name for variable in model.modelVariables]
-    listed = {
-        unknown.variable.name: {dependency.name for dependency in unknown.dependencies}
-        for unknown in model.initialUnknowns
-    }
-    assert len(names) > 80 and any(listed.values())
-    outputs = [v for v in model.modelVariables if v.causality == "output"]
-    folder = extract(fmu)
-    slave = FMU2Slave(
-        guid=model.guid,
-        unzipDirectory=folder,
-        modelIdentifier=model.coSimulation.modelIdentifier,
-        instanceName=unit,
-    )
-    slave.instantiate()
+    with Unit(getattr(pair, unit)) as opened:
+        model, instance = opened.description, opened.instantiate()
+        listed = {
+            unknown.variable.name: {dependency.name for dependency in unknown.dependencies}
+            for unknown in model.initialUnknowns
+        }
+        assert len(opened.variables) > 80 and any(listed.values())
+        outputs = opened.names("output")
+        # The last leg is not in use: with a duration, its other parameters mean something.
+        base = {"reference.leg[4].duration": 1.0, "reference.leg[4].ramp": 0.2}
+        base = {name: value for name, value in base.items() if name in opened.variables}
 
-    references = {variable.name: variable.valueReference for variable in model.modelVariables}
-    # The last leg is not in use: it gets a duration, so that its other parameters mean something.
-    base = {"reference.leg[4].duration": 1.0, "reference.leg[4].ramp": 0.2}
-    base = {name: value for name, value in base.items() if name in references}
+        def initial(changes: dict[str, float]) -> list[float]:
+            instance.slave.reset()
+            instance.initialize(parameters=base | changes)
+            return instance.all(outputs)
 
-    def initial(changes: dict[str, float]) -> list[float]:
-        values = base | changes
-        slave.reset()
-        slave.setReal([references[name] for name in values], list(values.values()))
-        slave.setupExperiment(startTime=0.0)
-        slave.enterInitializationMode()
-        slave.exitInitializationMode()
-        return slave.getReal([output.valueReference for output in outputs])
-
-    usual = initial({})
-    effective = 0
-    for parameter in (v for v in model.modelVariables if v.causality == "parameter"):
-        start = float(parameter.start)
-        if parameter.type == "Enumeration":
-            others = range(1, len(parameter.declaredType.items) + 1)
-            values = [float(item) for item in others if item != start]
-        else:
-            values = [base.get(parameter.name, start) * 0.9 + 0.01]
-        for value in values:
-            company = COMPANY.get((parameter.name, value), {})
-            expected = initial(company) if company else usual
-            found = initial(company | {parameter.name: value})
-            changed = {o.name for o, old, new in zip(outputs, expected, found) if old != new}
-            missing = {name for name in changed if parameter.name not in listed[name]}
-            assert not missing, f"{parameter.name} decides {missing}"
-            effective += bool(changed)
-    assert effective > 10
-    slave.freeInstance()
-    shutil.rmtree(folder)
+        usual = initial({})
+        effective = 0
+        for name in opened.names("parameter"):
+            parameter = opened.variables[name]
+            start = float(parameter.start)
+            if parameter.type == "Enumeration":
+                others = range(1, len(parameter.declaredType.items) + 1)
+                values = [float(item) for item in others if item != start]
+            else:
+                values = [base.get(name, start) * 0.9 + 0.01]
+            for value in values:
+                company = COMPANY.get((name, value), {})
+                expected = initial(company) if company else usual
+                found = initial(company | {name: value})
+                changed = {o for o, old, new in zip(outputs, expected, found) if old != new}
+                missing = {output for output in changed if name not in listed[output]}
+                assert not missing, f"{name} decides {missing}"
+                effective += bool(changed)
+        assert effective > 10
 
 
 @pytest.mark.parametrize("unit", ["controller", "plant"])

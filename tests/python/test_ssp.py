@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import io
 import shutil
 import subprocess
@@ -13,7 +12,7 @@ import pytest
 from fmpy.ssp.simulation import simulate_ssp
 from fmpy.ssp.ssd import get_connections, read_ssd, read_ssv
 
-from conftest import ALL, Pair, Structure, build, program
+from conftest import ALL, Pair, Structure, build, program, simulate
 
 # Scenarios of all kinds of structures, and how long they are watched [s].
 SCENARIOS = {"2.5a": 2.0, "4.4b": 2.0, "4.3a": 2.0}
@@ -43,13 +42,10 @@ def test_the_system_of_a_scenario_runs_it_without_being_told_anything(
     program("build", "--scenario", scenario, "--out", str(tmp_path))
     stop = SCENARIOS[scenario]
     there = simulate_ssp(str(tmp_path / "uam.ssp"), stop_time=stop - STEP / 2, step_size=STEP)
-    program("simulate", scenario, "--stop", str(stop), "--out", str(tmp_path / "native"))
-    with (tmp_path / "native" / f"{scenario}.csv").open(newline="") as file:
-        header, *rows = csv.reader(file)
-    here = dict(zip(header, map(float, rows[-1]), strict=True))
-    assert max(abs(here[name]) for name in ("base.x", "base.y")) > 1e-3, "it moves"
+    here = simulate(scenario, tmp_path / "native", stop=stop)
+    assert max(abs(here[name][-1]) for name in ("base.x", "base.y")) > 1e-3, "it moves"
     for name in ("base.x", "base.y", "base.roll", "end_effector.x", "end_effector.y"):
-        assert there[f"plant.{name}"][-1] == pytest.approx(here[name], abs=2e-6), name
+        assert there[f"plant.{name}"][-1] == pytest.approx(here[name][-1], abs=2e-6), name
 
 
 def test_omsimulator_runs_the_system(pair: Pair, tmp_path: Path) -> None:

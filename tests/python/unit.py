@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from ctypes import c_void_p
 from pathlib import Path
 
+import pytest
 from fmpy import extract, read_model_description
 from fmpy.fmi2 import (
     FMU2Slave,
@@ -16,7 +17,8 @@ from fmpy.fmi2 import (
     fmi2CallbackLoggerTYPE,
 )
 
-Values = Mapping[str, float]
+# An alternative of an enumeration by its name or number.
+Values = Mapping[str, float | str]
 
 
 class Unit:
@@ -73,16 +75,25 @@ class Instance:
         )
         self.slave.instantiate(callbacks=self.callbacks, loggingOn=logging)
 
-    def initialize(self, start: float = 0.0, parameters: Values | None = None) -> None:
+    def initialize(
+        self,
+        start: float = 0.0,
+        parameters: Values | None = None,
+        inputs: Values | None = None,
+    ) -> None:
+        """Through initialization; inputs are set in it, parameters before."""
         self.set(parameters or {})
         self.slave.setupExperiment(startTime=start)
         self.slave.enterInitializationMode()
+        self.set(inputs or {})
         self.slave.exitInitializationMode()
 
     def set(self, values: Values) -> None:
         """Set variables by their own types."""
         for name, value in values.items():
             variable = self.unit.variables[name]
+            if isinstance(value, str):
+                value = {item.name: item.value for item in variable.declaredType.items}[value]
             kind = {"Real": float, "Boolean": bool}.get(variable.type, int)
             setter = {"Real": self.slave.setReal, "Boolean": self.slave.setBoolean}
             setter.get(variable.type, self.slave.setInteger)(
@@ -96,15 +107,21 @@ class Instance:
     def all(self, names: Iterable[str]) -> list[float]:
         return self.slave.getReal([self.unit.variables[name].valueReference for name in names])
 
-    def set_slopes(self, slopes: Values) -> None:
+    def set_slopes(self, slopes: Mapping[str, float]) -> None:
         """First derivatives of inputs, for the coming step."""
         references = [self.unit.variables[name].valueReference for name in slopes]
         self.slave.setRealInputDerivatives(references, [1] * len(slopes), list(slopes.values()))
 
-    def slope(self, name: str, order: int = 1) -> float:
-        """A derivative of an output."""
-        reference = self.unit.variables[name].valueReference
-        return self.slave.getRealOutputDerivatives([reference], [order])[0]
+    def slopes(self, names: Sequence[str], order: int = 1) -> list[float]:
+        """Derivatives of outputs."""
+        references = [self.unit.variables[name].valueReference for name in names]
+        return self.slave.getRealOutputDerivatives(references, [order] * len(names))
+
+    def refuses(self, call: Callable[[], object]) -> str:
+        """The message with which this instance refuses a call."""
+        with pytest.raises(Exception, match="failed with status 3"):
+            call()
+        return self.said[-1][2]
 
     def step(self, start: float, size: float) -> None:
         self.slave.doStep(currentCommunicationPoint=start, communicationStepSize=size)
