@@ -10,6 +10,7 @@ pub use simulation::Plant;
 pub use slopes::Slopes;
 
 use crate::bytes::Memory;
+use crate::dynamics::Load;
 use crate::error::{Error, Result};
 use crate::for_coordinates;
 use crate::parameters::{MAX_COORDINATES, Parameters, Structure};
@@ -27,24 +28,8 @@ pub struct Inputs {
     pub joint_torque_command: [f64; MAX_COORDINATES],
     /// Whether the payload is to be held.
     pub grasp: bool,
-    /// Wanted altitude \[m\].
-    pub altitude_reference: f64,
-    /// Wanted roll \[rad\].
-    pub roll_reference: f64,
-    /// Added to the thrust of the pid autopilot \[N\].
-    pub thrust_feedforward: f64,
-    /// Thrust of an external autopilot \[N\].
-    pub thrust_command: f64,
-    /// Torque of an external autopilot \[N m\].
-    pub torque_command: f64,
-    /// External force on the UAV at its centre of mass \[N\].
-    pub base_force: Vec2,
-    /// External torque on the UAV \[N m\].
-    pub base_torque: f64,
-    /// External force on the end effector \[N\].
-    pub end_effector_force: Vec2,
-    /// External torque on the last link \[N m\].
-    pub end_effector_torque: f64,
+    /// What acts from outside, and what is wanted of the autopilot.
+    pub load: Load,
     /// How inputs change within the step, if that is given.
     pub slopes: Option<Slopes>,
 }

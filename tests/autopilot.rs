@@ -45,7 +45,7 @@ fn the_altitude_follows_its_linear_equation() {
     let expected = (better[1] * 4.0 - better[0]) / 3.0;
 
     let mut run = plumb(|_| {});
-    run.inputs.altitude_reference = 0.1;
+    run.inputs.load.altitude = 0.1;
     run.step(0.5);
     assert_close(&[run.outputs.pose.y, run.outputs.velocity.y], expected.as_slice(), 1e-10, "altitude");
     assert_eq!((run.outputs.pose.x, run.outputs.pose.z), (0.0, 0.0));
@@ -61,10 +61,10 @@ fn thrust_and_torque_follow_the_hover_laws() {
         let mut run = Run::new(Structure::DEFAULT, parameters);
         run.inputs.rate_command[..3].copy_from_slice(&[0.5, -0.8, 0.3]);
         run.inputs.grasp = held;
-        run.inputs.altitude_reference = 0.03;
-        run.inputs.roll_reference = -0.02;
-        run.inputs.thrust_feedforward = 1.5;
-        run.inputs.base_force.x = 0.7;
+        run.inputs.load.altitude = 0.03;
+        run.inputs.load.roll = -0.02;
+        run.inputs.load.thrust_feedforward = 1.5;
+        run.inputs.load.base_force.x = 0.7;
         let record = run.record(300, 1e-3);
         let errors: Vec<_> = record.iter().map(|o| Vector2::new(o.pose.y - 0.03, o.pose.z + 0.02)).collect();
         let (integral, o) = (simpson(&errors, 1e-3), &run.outputs);
@@ -80,7 +80,7 @@ fn thrust_and_torque_follow_the_hover_laws() {
 fn the_first_samples_by_hand() {
     let (sample, wanted) = (0.02, 0.1);
     let mut run = plumb(|p| p.autopilot.sample_time = 0.02);
-    run.inputs.altitude_reference = wanted;
+    run.inputs.load.altitude = wanted;
     let (mut y, mut v, mut integral) = (0.0, 0.0, 0.0);
     for _ in 0..3 {
         let thrust = WEIGHT - 37.0 * (y - wanted) - 18.0 * v - 8.0 * integral;
@@ -133,11 +133,11 @@ fn a_fast_autopilot_is_nearly_continuous() {
 #[test]
 fn external_thrust_and_torque_are_the_inputs() {
     let mut run = plumb(|p| p.autopilot.mode = AutopilotMode::External);
-    (run.inputs.thrust_command, run.inputs.torque_command) = (WEIGHT + 2.6, 0.0);
-    run.inputs.thrust_feedforward = 9.0; // for the pid mode only
+    (run.inputs.load.thrust, run.inputs.load.torque) = (WEIGHT + 2.6, 0.0);
+    run.inputs.load.thrust_feedforward = 9.0; // for the pid mode only
     run.step(0.1);
     assert_close(&[run.outputs.thrust, run.outputs.pose.y], &[WEIGHT + 2.6, 0.5 * 0.5 * 0.01], 1e-13, "climb");
-    run.inputs.torque_command = 0.3;
+    run.inputs.load.torque = 0.3;
     run.step(0.1);
     assert_eq!(run.outputs.torque, 0.3);
     assert!(run.outputs.pose.z > 0.0);
@@ -147,7 +147,7 @@ fn external_thrust_and_torque_are_the_inputs() {
 #[test]
 fn gains_can_be_changed_between_steps() {
     let mut run = plumb(|_| {});
-    run.inputs.altitude_reference = 0.1;
+    run.inputs.load.altitude = 0.1;
     run.step(0.01);
     run.model.parameters.autopilot.altitude.kp = 0.0;
     run.model.parameters.autopilot.altitude.ki = 0.0;
@@ -174,7 +174,7 @@ proptest! {
     #[test]
     fn the_ideal_carriage_slides_along_x_only(seed: u64, held: bool) {
         let (mut run, mut random) = carriage(seed, held);
-        (run.inputs.base_force.x, run.inputs.end_effector_force.x) = (0.0, 0.0);
+        (run.inputs.load.base_force.x, run.inputs.load.tip_force.x) = (0.0, 0.0);
         for _ in 0..5 {
             random.new_rates(run.model.structure, &mut run.inputs);
             run.step(0.03);
@@ -207,9 +207,9 @@ proptest! {
             // Nodes without rotors; moments about the moving UAV.
             let (model, about) = (&nodes.model, o.pose.xy());
             let bodies = model.observed(&o, o.attached);
-            let (f, tip) = (nodes.inputs.end_effector_force, model.end_effector(&model.coordinates(&o)));
-            let force = nodes.inputs.base_force + f - Vector2::new(0.0, model::mass(&bodies) * model.gravity());
-            let moment = nodes.inputs.base_torque + nodes.inputs.end_effector_torque
+            let (f, tip) = (nodes.inputs.load.tip_force, model.end_effector(&model.coordinates(&o)));
+            let force = nodes.inputs.load.base_force + f - Vector2::new(0.0, model::mass(&bodies) * model.gravity());
+            let moment = nodes.inputs.load.base_torque + nodes.inputs.load.tip_torque
                 + model::cross(tip - about, f)
                 + model::weight_moment(&bodies, model.gravity(), about)
                 - model::cross(o.velocity.xy(), model::momentum(&bodies));

@@ -147,8 +147,8 @@ proptest! {
             now.inputs.rate_command.iter_mut().for_each(|rate| *rate *= side);
             now.inputs.acceleration_command.iter_mut().for_each(|slope| *slope *= side);
             for odd in [
-                &mut now.inputs.roll_reference, &mut now.inputs.torque_command, &mut now.inputs.base_force.x,
-                &mut now.inputs.base_torque, &mut now.inputs.end_effector_force.x, &mut now.inputs.end_effector_torque,
+                &mut now.inputs.load.roll, &mut now.inputs.load.torque, &mut now.inputs.load.base_force.x,
+                &mut now.inputs.load.base_torque, &mut now.inputs.load.tip_force.x, &mut now.inputs.load.tip_torque,
             ] {
                 *odd *= side;
             }
@@ -166,11 +166,11 @@ fn power(run: &Run, o: &Outputs) -> f64 {
     let spin = o.velocity.z + o.rate[..run.model.structure.links].iter().sum::<f64>();
     let (at, speed) = (run.model.coordinates(o), run.model.speed(o));
     let tip = run.model.velocity_of(&at, &speed, model::Model::end_effector);
-    let base_force = inputs.base_force + o.thrust * Vector2::new(-roll.sin(), roll.cos());
+    let base_force = inputs.load.base_force + o.thrust * Vector2::new(-roll.sin(), roll.cos());
     base_force.dot(&o.velocity.xy())
-        + (o.torque + inputs.base_torque) * o.velocity.z
-        + inputs.end_effector_force.dot(&tip)
-        + inputs.end_effector_torque * spin
+        + (o.torque + inputs.load.base_torque) * o.velocity.z
+        + inputs.load.tip_force.dot(&tip)
+        + inputs.load.tip_torque * spin
 }
 
 /// A random vehicle without rotors and support.

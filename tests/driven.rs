@@ -175,8 +175,8 @@ proptest! {
             inputs.rate_command.iter_mut().for_each(|rate| *rate *= side);
             inputs.joint_torque_command.iter_mut().for_each(|torque| *torque *= side);
             for odd in [
-                &mut inputs.roll_reference, &mut inputs.torque_command, &mut inputs.base_force.x,
-                &mut inputs.base_torque, &mut inputs.end_effector_force.x, &mut inputs.end_effector_torque,
+                &mut inputs.load.roll, &mut inputs.load.torque, &mut inputs.load.base_force.x,
+                &mut inputs.load.base_torque, &mut inputs.load.tip_force.x, &mut inputs.load.tip_torque,
             ] {
                 *odd *= side;
             }
@@ -202,10 +202,10 @@ fn tumbling(seed: u64) -> Run {
     parameters.autopilot.mode = AutopilotMode::External;
     parameters.joints.iter_mut().for_each(|joint| joint.actuation = Actuation::Torque);
     let mut run = Run::new(structure, parameters);
-    run.inputs.base_torque = random.about_zero(2.0);
+    run.inputs.load.base_torque = random.about_zero(2.0);
     run.inputs.joint_torque_command[0] = random.about_zero(0.3);
     run.steps(10, 0.01);
-    run.inputs.base_torque = 0.0;
+    run.inputs.load.base_torque = 0.0;
     run.inputs.joint_torque_command[0] = 0.0;
     run.jump();
     run

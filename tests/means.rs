@@ -106,9 +106,9 @@ impl Observed {
             let push = if o.attached { model.parameters.support.stiffness * model.pressed(o) } else { 0.0 };
             let support = Vector2::new(0.0, push);
             let loaded = f64::from(which(Part::Link(model.structure.links - 1)));
-            let force = (run.inputs.end_effector_force + support) * loaded;
-            let moment = (run.inputs.end_effector_torque
-                + cross(model.end_effector(&at) - about, run.inputs.end_effector_force)
+            let force = (run.inputs.load.tip_force + support) * loaded;
+            let moment = (run.inputs.load.tip_torque
+                + cross(model.end_effector(&at) - about, run.inputs.load.tip_force)
                 + cross(model.payload(&at) - about, support))
                 * loaded
                 + model::weight_moment(&bodies, model.gravity(), about)

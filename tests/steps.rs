@@ -148,8 +148,8 @@ fn a_step_that_would_take_for_ever_is_refused() {
 fn a_state_that_is_not_finite_is_an_error_that_names_it() {
     for (what, change) in [
         ("joint position", (|run: &mut Run| run.inputs.rate_command[1] = f64::NAN) as fn(&mut Run)),
-        ("base position", |run| run.inputs.base_force.x = f64::NAN),
-        ("base position", |run| run.inputs.thrust_feedforward = f64::INFINITY),
+        ("base position", |run| run.inputs.load.base_force.x = f64::NAN),
+        ("base position", |run| run.inputs.load.thrust_feedforward = f64::INFINITY),
     ] {
         for grasp in [false, true] {
             let mut run = default_run();

@@ -125,7 +125,7 @@ fn check_touch(depth: f64, step: f64) {
     let bottom = -G * 0.01;
     let mut run = plumb(-bottom - depth);
     run.step(0.1);
-    run.inputs.thrust_command = 2.0 * MASS * G;
+    run.inputs.load.thrust = 2.0 * MASS * G;
     let until = 0.3;
     while run.time < until - 1e-9 {
         run.step(step.min(until - run.time));

@@ -54,7 +54,7 @@ impl<const N: usize> Dynamics<N> {
         mut account: Account<'_, N>,
     ) -> Result<Impulse> {
         // A sample still sees the velocities before the jump of the rates.
-        let mut until_sample = self.sample(&mut situation.state, &loads.begin, t);
+        let mut until_sample = self.sample(&mut situation.state, loads.begin, t);
         let sample_time = if until_sample.is_finite() { self.autopilot.sample_time } else { f64::INFINITY };
         let mut flow = situation.flow(self.base);
         let Situation { state, turn, node } = situation;
@@ -63,7 +63,7 @@ impl<const N: usize> Dynamics<N> {
         state.contact = self.touches(&flow, node, state.held);
         let mut elapsed = 0.0;
         let mut stuck = false;
-        let mut room = Load::NONE;
+        let mut room = None;
         while elapsed < size {
             let left = size - elapsed;
             let scene = Scene {
@@ -146,7 +146,7 @@ impl<const N: usize> Dynamics<N> {
             (state.momentum.y, state.momentum.z) = (h.linear.y, h.angular);
         } else {
             // What the momentum has gained, and no other force gave.
-            let mut room = Load::NONE;
+            let mut room = None;
             let load = loads.present(0.5 * size, &mut room);
             let others = load.base_force + load.tip_force + vec2(0.0, -node.matrix.mass * self.vehicle.gravity);
             impulse.thrust = (state.momentum - before).xy() - others * size - vec2(0.0, impulse.support);

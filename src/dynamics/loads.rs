@@ -29,37 +29,40 @@ pub struct Load {
 memory!(Load { base_force, base_torque, tip_force, tip_torque, altitude, roll, thrust_feedforward, thrust, torque });
 
 /// What acts from outside during one step: it changes linearly, or not at all.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 pub struct Loads<'s> {
     /// At the beginning.
-    pub begin: Load,
+    pub begin: &'s Load,
     /// Change per second, if there is any.
     pub slope: Option<&'s Load>,
 }
 
-impl Loads<'_> {
+impl<'s> Loads<'s> {
     /// Nothing acts from outside.
-    pub const CALM: Self = Self { begin: Load::NONE, slope: None };
+    pub const CALM: Self = Self { begin: &Load::NONE, slope: None };
 
     /// What acts after the time `t` \[s\]; written to `room` if it is not what acts at the beginning.
     #[inline]
     #[must_use]
-    pub fn present<'a>(&'a self, t: f64, room: &'a mut Load) -> &'a Load {
+    pub fn present<'a>(&self, t: f64, room: &'a mut Option<Load>) -> &'a Load
+    where
+        's: 'a,
+    {
         match self.slope {
-            None => &self.begin,
-            Some(slope) => {
-                *room = self.begin.moved(slope, t);
-                room
-            }
+            None => self.begin,
+            Some(slope) => room.insert(self.begin.moved(slope, t)),
         }
     }
 
     /// What acts at the beginning, in the middle and at the end of an interval, by beginning and size.
     #[inline]
     #[must_use]
-    pub fn at<'a>(&'a self, [from, size]: [f64; 2], room: &'a mut Option<[Load; 3]>) -> [&'a Load; 3] {
+    pub fn at<'a>(&self, [from, size]: [f64; 2], room: &'a mut Option<[Load; 3]>) -> [&'a Load; 3]
+    where
+        's: 'a,
+    {
         match self.slope {
-            None => [&self.begin; 3],
+            None => [self.begin; 3],
             Some(slope) => self.begin.three(slope, [from, from + 0.5 * size, from + size], room),
         }
     }

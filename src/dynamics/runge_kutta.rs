@@ -111,7 +111,7 @@ mod tests {
         let dynamics = Dynamics::<3>::new(Structure::DEFAULT, &parameters, BaseModel::Full).unwrap();
         let start = dynamics.start(&parameters);
         let motion = Motion::constant([1.5, -2.0, 2.5].into());
-        let loads = Loads::default();
+        let loads = Loads::CALM;
         let end_in = |steps: u32| {
             let size = 0.4 / f64::from(steps);
             let (mut flow, mut node) = (start.flow(BaseModel::Full), start.node);
@@ -127,7 +127,7 @@ mod tests {
             };
             for _ in 0..steps {
                 step.nodes[0] = node;
-                step.rates[0] = dynamics.law(&flow, &node, &loads.begin, &scene);
+                step.rates[0] = dynamics.law(&flow, &node, loads.begin, &scene);
                 step.from = flow;
                 dynamics.internal_step(&mut step, size, &scene, &mut node);
                 flow = step.to;

@@ -18,6 +18,7 @@ pub const LONGEST: usize = 1 << 16;
 ///
 /// # Safety
 /// A pointer that is neither null nor misaligned must be good for `count` elements.
+#[inline]
 pub unsafe fn list<'a, T>(argument: &'static str, data: *const T, count: usize) -> Result<&'a [T], Error> {
     if count == 0 {
         return Ok(&[]);
@@ -34,6 +35,7 @@ pub unsafe fn list<'a, T>(argument: &'static str, data: *const T, count: usize) 
 ///
 /// # Safety
 /// Like [`list`], and nothing else may use the elements during the call.
+#[inline]
 pub unsafe fn list_mut<'a, T>(argument: &'static str, data: *mut T, count: usize) -> Result<&'a mut [T], Error> {
     if count == 0 {
         return Ok(&mut []);
@@ -43,15 +45,22 @@ pub unsafe fn list_mut<'a, T>(argument: &'static str, data: *mut T, count: usize
     Ok(unsafe { slice::from_raw_parts_mut(data, count) })
 }
 
+#[inline]
 fn check_list<T>(argument: &'static str, data: *const T, count: usize) -> Result<(), Error> {
-    if count > LONGEST {
-        return Err(Error::Argument {
-            argument,
-            expected: format!("a list of at most {LONGEST} elements"),
-            found: format!("one of {count}"),
-        });
+    if count <= LONGEST && !data.is_null() && data.is_aligned() { Ok(()) } else { Err(no_list(argument, count)) }
+}
+
+/// Why that is no list.
+#[cold]
+fn no_list(argument: &'static str, count: usize) -> Error {
+    if count <= LONGEST {
+        return Error::Pointer { argument };
     }
-    if data.is_null() || !data.is_aligned() { Err(Error::Pointer { argument }) } else { Ok(()) }
+    Error::Argument {
+        argument,
+        expected: format!("a list of at most {LONGEST} elements"),
+        found: format!("one of {count}"),
+    }
 }
 
 /// The place at which the host wants an answer.

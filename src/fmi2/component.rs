@@ -130,12 +130,16 @@ pub unsafe fn switch_logging<M: Model>(handle: Handle, body: impl FnOnce(&mut Lo
     conclude(unsafe { &(*this).logger }, Call::SetDebugLogging, &result)
 }
 
+#[inline]
 fn conclude(logger: &Logger, call: Call, result: &Result<(), Error>) -> Status {
     match result {
         Ok(()) => Status::Ok,
-        Err(error) => {
-            logger.log(Category::StatusError, format_args!("{call}: {error}"));
-            Status::Error
-        }
+        Err(error) => refuse(logger, call, error),
     }
+}
+
+#[cold]
+fn refuse(logger: &Logger, call: Call, error: &Error) -> Status {
+    logger.log(Category::StatusError, format_args!("{call}: {error}"));
+    Status::Error
 }

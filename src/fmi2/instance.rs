@@ -77,6 +77,31 @@ impl<M: Model> Situation<M> {
             observed: true,
         }
     }
+
+    fn fail(&mut self) {
+        self.state = State::Failed;
+        // Nothing more is computed.
+        self.observed = true;
+    }
+
+    /// Makes the outputs on demand agree with the present communication point, if they do not yet.
+    ///
+    /// # Errors
+    /// If they cannot be computed; the instance has failed then.
+    #[inline]
+    fn observe(&mut self) -> Result<(), Error> {
+        if self.observed { Ok(()) } else { self.observe_now() }
+    }
+
+    #[inline(never)]
+    fn observe_now(&mut self) -> Result<(), Error> {
+        self.observed = true;
+        let outcome = self.model.as_ref().map_or(Ok(()), |model| model.observe(&mut self.data));
+        outcome.map_err(|error| {
+            self.fail();
+            Error::Outputs { time: self.time, reason: error.to_string() }
+        })
+    }
 }
 
 impl<M: Model> Instance<M> {
@@ -118,9 +143,7 @@ impl<M: Model> Instance<M> {
 
     /// Gives the simulation up: after this only what [`State::Failed`] allows is possible.
     pub fn fail(&mut self) {
-        self.now.state = State::Failed;
-        // Nothing more is computed.
-        self.now.observed = true;
+        self.now.fail();
     }
 
     /// Sets start and, if there is one, stop time. May be left out (start at 0) or repeated.
@@ -210,22 +233,6 @@ impl<M: Model> Instance<M> {
         }
     }
 
-    /// Makes the outputs on demand agree with the present communication point, if they do not yet.
-    ///
-    /// # Errors
-    /// If they cannot be computed; the instance has failed then.
-    fn observe(&mut self) -> Result<(), Error> {
-        if self.now.observed {
-            return Ok(());
-        }
-        self.now.observed = true;
-        let outcome = self.now.model.as_ref().map_or(Ok(()), |model| model.observe(&mut self.now.data));
-        outcome.map_err(|error| {
-            self.fail();
-            Error::Outputs { time: self.now.time, reason: error.to_string() }
-        })
-    }
-
     fn checked_step(&self, from: f64, size: f64) -> Result<CommunicationStep, Error> {
         let Situation { start_time, stop_time, time, .. } = self.now;
         let gap = GAP + GAP_PER_SECOND * time.abs();
@@ -268,19 +275,19 @@ impl<M: Model> Instance<M> {
     /// go together, or the outputs of the finished step have no values.
     pub fn get<T: Scalar>(&mut self, references: &[u32], values: &mut [T]) -> Result<(), Error> {
         self.permit(T::GET)?;
-        let asked_for = |which: fn(&Variable<M::Data>) -> bool| {
-            references.iter().any(|reference| lookup(self.table.variables(), *reference).is_ok_and(which))
+        let is_output = |reference: &u32| {
+            lookup(self.table.variables(), *reference).is_ok_and(|variable| variable.causality == Causality::Output)
         };
-        if self.now.state.precedes_simulation() {
-            if asked_for(|variable| variable.causality == Causality::Output) {
-                self.initialize()?;
-            }
-        } else if !self.now.observed && asked_for(|variable| variable.on_demand) {
-            self.observe()?;
+        if self.now.state.precedes_simulation() && references.iter().any(is_output) {
+            self.initialize()?;
         }
+        let (variables, now) = (self.table.variables(), &mut self.now);
         for (reference, value) in references.iter().zip(values) {
-            let variable = lookup(self.table.variables(), *reference)?;
-            *value = T::read(variable, &mut self.now.data).ok_or_else(|| values::mismatch(variable, T::TYPES))?;
+            let variable = lookup(variables, *reference)?;
+            if variable.on_demand {
+                now.observe()?;
+            }
+            *value = T::read(variable, &mut now.data).ok_or_else(|| values::mismatch(variable, T::TYPES))?;
         }
         Ok(())
     }

@@ -91,16 +91,16 @@ impl<const N: usize> Interval<N> {
         }
     }
 
-    /// A step of length `size` begins in `situation`, where the one before, under `loads`, has ended.
+    /// A step of length `size` begins in `situation`, where the one before, the `past` one, has ended.
     #[inline]
-    pub(super) fn begin(&mut self, dynamics: &Dynamics<N>, situation: &Situation<N>, loads: &Last<'_>, size: f64) {
+    pub(super) fn begin(&mut self, dynamics: &Dynamics<N>, situation: &Situation<N>, past: &Past, size: f64) {
         if self.goes_on() {
-            let sum = self.outboard.total(dynamics, &situation.node, &loads.all);
+            let sum = self.outboard.total(dynamics, &situation.node, &past.loads());
             self.outboard.restart(sum);
             return;
         }
         if size < SHORTEST {
-            self.previous = self.means(dynamics, situation, loads);
+            self.previous = self.means(dynamics, situation, past);
         }
         self.restart(situation);
     }
@@ -132,21 +132,21 @@ impl<const N: usize> Interval<N> {
         self.outboard.add(&(momentum(false) - momentum(true)));
     }
 
-    /// The means up to `situation`, where the last step, under `loads`, has ended.
+    /// The means up to `situation`, where the last step, the `past` one, has ended.
     #[inline(never)]
-    pub(super) fn means(&self, dynamics: &Dynamics<N>, situation: &Situation<N>, loads: &Last<'_>) -> Means<N> {
+    pub(super) fn means(&self, dynamics: &Dynamics<N>, situation: &Situation<N>, past: &Past) -> Means<N> {
         if self.goes_on() {
             return self.previous;
         }
         let (vehicle, state, per_time) = (&dynamics.vehicle, &situation.state, 1.0 / self.time);
         let (before, impulse) = (&self.before, &self.impulse);
         let change = (state.velocity - before.state.velocity) * per_time;
-        let mut room = Load::NONE;
-        let load = loads.all.present(0.5 * loads.size, &mut room);
+        let mut room = None;
+        let load = past.loads().present(0.5 * past.size, &mut room);
 
         let momentum = momentum_outboard(vehicle, situation, state.held);
         let momentum_before = momentum_outboard(vehicle, before, before.state.held);
-        let outboard_impulse = self.outboard.total(dynamics, &situation.node, &loads.all);
+        let outboard_impulse = self.outboard.total(dynamics, &situation.node, &past.loads());
 
         let payload = |situation: &Situation<N>| {
             if situation.state.held { momentum_of_payload(dynamics, situation) } else { Vec2::zeros() }
@@ -167,16 +167,10 @@ impl<const N: usize> Interval<N> {
     }
 
     /// Works out what waits for somebody to ask, and passes all by a tape.
-    pub(super) fn pass(
-        &mut self,
-        dynamics: &Dynamics<N>,
-        situation: &Situation<N>,
-        loads: &Last<'_>,
-        tape: &mut Tape<'_>,
-    ) {
-        let mut sum = self.outboard.total(dynamics, &situation.node, &loads.all);
+    pub(super) fn pass(&mut self, dynamics: &Dynamics<N>, situation: &Situation<N>, past: &Past, tape: &mut Tape<'_>) {
+        let mut sum = self.outboard.total(dynamics, &situation.node, &past.loads());
         if !self.goes_on() {
-            self.previous = self.means(dynamics, situation, loads);
+            self.previous = self.means(dynamics, situation, past);
             self.restart(situation);
             sum = SVector::zeros();
         }
@@ -192,11 +186,25 @@ impl<const N: usize> Interval<N> {
 
 /// What acted during the last step.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Last<'s> {
-    /// Its loads.
-    pub all: Loads<'s>,
+pub(super) struct Past {
+    /// Loads at its beginning.
+    pub begin: Load,
+    /// Change of the loads per second, if there was any.
+    pub change: Option<Load>,
     /// Its length \[s\].
     pub size: f64,
+}
+
+memory!(Past { begin, change, size });
+
+impl Past {
+    /// Nothing has been yet.
+    pub const NONE: Self = Self { begin: Load::NONE, change: None, size: 0.0 };
+
+    /// The loads.
+    pub fn loads(&self) -> Loads<'_> {
+        Loads { begin: &self.begin, slope: self.change.as_ref() }
+    }
 }
 
 /// Momentum of what each coordinate moves.

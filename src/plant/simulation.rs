@@ -2,10 +2,10 @@
 
 use nalgebra::SVector;
 
-use super::means::{Interval, Last};
+use super::means::{Interval, Past};
 use super::{Inputs, Outputs, Rates, Simulation};
 use crate::bytes::{Memory, Tape};
-use crate::dynamics::{Driven, Dynamics, Instant, Load, Loads, Motion, Situation, Torques};
+use crate::dynamics::{Driven, Dynamics, Instant, Loads, Motion, Situation, Torques};
 use crate::error::Result;
 use crate::memory;
 use crate::parameters::{BaseModel, Parameters, Structure};
@@ -22,30 +22,20 @@ pub struct Plant<const N: usize> {
     finished: Option<Finished<N>>,
 }
 
-/// What of the finished step decides what can be observed at its end, beside the state.
+/// What of a finished step decides what can be observed at its end, beside the state.
 #[derive(Debug, Clone, Copy)]
 struct Finished<const N: usize> {
     /// Accelerations of the coordinates at the end \[rad/s2, m/s2\].
     slope: SVector<f64, N>,
-    /// Loads at the beginning.
-    begin: Load,
-    /// Change of the loads per second, if there was any.
-    change: Option<Load>,
-    /// Length \[s\].
-    size: f64,
+    /// What acted.
+    past: Past,
 }
 
-memory!(Finished<N> { slope, begin, change, size });
+memory!(Finished<N> { slope, past });
 
 impl<const N: usize> Default for Finished<N> {
     fn default() -> Self {
-        Self { slope: SVector::zeros(), begin: Load::NONE, change: None, size: 0.0 }
-    }
-}
-
-impl<const N: usize> Finished<N> {
-    fn last(&self) -> Last<'_> {
-        Last { all: Loads { begin: self.begin, slope: self.change.as_ref() }, size: self.size }
+        Self { slope: SVector::zeros(), past: Past::NONE }
     }
 }
 
@@ -64,15 +54,15 @@ impl<const N: usize> Plant<N> {
 
     /// What can be said of the end of a step.
     fn at_end(&self, finished: &Finished<N>) -> Instant {
-        let mut room = Load::NONE;
-        let loads = finished.last().all;
-        self.dynamics.at_end(&self.situation, &finished.slope, loads.present(finished.size, &mut room))
+        let mut room = None;
+        let load = finished.past.loads().present(finished.past.size, &mut room);
+        self.dynamics.at_end(&self.situation, &finished.slope, load)
     }
 }
 
 /// What acted during the finished step, if there is one.
-fn last<const N: usize>(finished: &Option<Finished<N>>) -> Last<'_> {
-    finished.as_ref().map_or(Last { all: Loads::CALM, size: 0.0 }, Finished::last)
+fn past<const N: usize>(finished: &Option<Finished<N>>) -> &Past {
+    finished.as_ref().map_or(&Past::NONE, |finished| &finished.past)
 }
 
 impl<const N: usize> Simulation for Plant<N> {
@@ -95,7 +85,7 @@ impl<const N: usize> Simulation for Plant<N> {
         outputs: &mut Outputs,
     ) -> Result<()> {
         self.dynamics.tune(&parameters.autopilot);
-        self.interval.begin(&self.dynamics, &self.situation, &last(&self.finished), size);
+        self.interval.begin(&self.dynamics, &self.situation, past(&self.finished), size);
         match (self.situation.state.held, inputs.grasp) {
             (false, true) => self.dynamics.grasp(&mut self.situation),
             (true, false) => {
@@ -112,9 +102,9 @@ impl<const N: usize> Simulation for Plant<N> {
             slope: SVector::from_fn(|i, _| inputs.rate_slope(i)),
         };
         let change = inputs.slopes.as_ref().and_then(|slopes| slopes.load.as_ref());
-        let loads = Loads { begin: load(inputs), slope: change };
+        let loads = Loads { begin: &inputs.load, slope: change };
         let account = self.interval.account();
-        let (dynamics, situation, mut room) = (&self.dynamics, &mut self.situation, Load::NONE);
+        let (dynamics, situation) = (&self.dynamics, &mut self.situation);
         let impulse = if let Some(driven) = &mut self.driven {
             let torques = Torques {
                 begin: SVector::from_fn(|i, _| inputs.joint_torque_command[i]),
@@ -122,6 +112,7 @@ impl<const N: usize> Simulation for Plant<N> {
             };
             (motion.rate, motion.slope) = (driven.rest(&motion.rate), driven.rest(&motion.slope));
             let impulse = dynamics.advance_driven(situation, driven, &motion, &torques, &loads, t, size, account)?;
+            let mut room = None;
             let load = loads.present(size, &mut room);
             motion.slope = dynamics.slope_at_end(situation, driven, &motion.slope, &torques, size, load);
             impulse
@@ -130,8 +121,8 @@ impl<const N: usize> Simulation for Plant<N> {
         };
         self.situation.state.check(t + size)?;
         self.interval.add(impulse, size);
-        let (slope, begin, change) = (motion.slope, loads.begin, change.copied());
-        self.finished = Some(Finished { slope, begin, change, size });
+        let past = Past { begin: inputs.load, change: change.copied(), size };
+        self.finished = Some(Finished { slope: motion.slope, past });
         self.write_state(outputs);
         Ok(())
     }
@@ -142,7 +133,7 @@ impl<const N: usize> Simulation for Plant<N> {
         outputs.end_effector = self.situation.place(tip);
         outputs.end_effector_velocity = self.dynamics.velocity_at(node, *turn, tip, self.situation.base());
         outputs.center_of_mass = self.situation.place(node.matrix.first / node.matrix.mass);
-        self.interval.means(&self.dynamics, &self.situation, &last(&self.finished)).write(outputs);
+        self.interval.means(&self.dynamics, &self.situation, past(&self.finished)).write(outputs);
         if let Some(finished) = &self.finished {
             let now = self.at_end(finished);
             outputs.acceleration = now.acceleration;
@@ -156,8 +147,8 @@ impl<const N: usize> Simulation for Plant<N> {
 
     fn rates(&self) -> Rates {
         let Some(finished) = &self.finished else { return Rates::default() };
-        let (Instant { acceleration, .. }, last) = (self.at_end(finished), finished.last());
-        let control = self.dynamics.control_rate(&self.situation, &acceleration, &last.all, last.size);
+        let (Instant { acceleration, .. }, past) = (self.at_end(finished), &finished.past);
+        let control = self.dynamics.control_rate(&self.situation, &acceleration, &past.loads(), past.size);
         let now = self.dynamics.rates_at_end(&self.situation, &finished.slope, &acceleration);
         let mut rates = Rates {
             end_effector_velocity: now.tip_velocity,
@@ -188,24 +179,10 @@ impl<const N: usize> Memory for Plant<N> {
         let Self { dynamics, situation, interval, driven, finished } = self;
         dynamics.pass_gains(tape);
         situation.pass(tape);
-        interval.pass(dynamics, situation, &last(finished), tape);
+        interval.pass(dynamics, situation, past(finished), tape);
         if let Some(driven) = driven {
             driven.pass(tape);
         }
         finished.pass(tape);
-    }
-}
-
-fn load(inputs: &Inputs) -> Load {
-    Load {
-        base_force: inputs.base_force,
-        base_torque: inputs.base_torque,
-        tip_force: inputs.end_effector_force,
-        tip_torque: inputs.end_effector_torque,
-        altitude: inputs.altitude_reference,
-        roll: inputs.roll_reference,
-        thrust_feedforward: inputs.thrust_feedforward,
-        thrust: inputs.thrust_command,
-        torque: inputs.torque_command,
     }
 }

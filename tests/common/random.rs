@@ -3,6 +3,7 @@
 use nalgebra::Vector2;
 use proptest::prelude::*;
 use uam::autopilot::{AutopilotMode, Gains};
+use uam::dynamics::Load;
 use uam::parameters::{Balance, Link};
 use uam::plant::Inputs;
 use uam::scenarios::default_parameters;
@@ -81,15 +82,17 @@ impl Random {
     /// Rates and loads of every kind; thrust and torque of an external autopilot near hover.
     pub fn inputs(&mut self, structure: Structure) -> Inputs {
         let mut inputs = Inputs {
-            base_force: self.vector(3.0),
-            base_torque: self.about_zero(0.5),
-            end_effector_force: self.vector(2.0),
-            end_effector_torque: self.about_zero(0.2),
-            altitude_reference: self.about_zero(0.1),
-            roll_reference: self.about_zero(0.05),
-            thrust_feedforward: self.about_zero(5.0),
-            thrust_command: self.between(40.0, 90.0),
-            torque_command: self.about_zero(1.0),
+            load: Load {
+                base_force: self.vector(3.0),
+                base_torque: self.about_zero(0.5),
+                tip_force: self.vector(2.0),
+                tip_torque: self.about_zero(0.2),
+                altitude: self.about_zero(0.1),
+                roll: self.about_zero(0.05),
+                thrust_feedforward: self.about_zero(5.0),
+                thrust: self.between(40.0, 90.0),
+                torque: self.about_zero(1.0),
+            },
             ..Inputs::default()
         };
         self.new_rates(structure, &mut inputs);

@@ -76,16 +76,16 @@ impl Run {
         let bodies = model.observed(outputs, outputs.attached);
         let at = model.coordinates(outputs);
         let roll = outputs.pose.z;
-        let base_force = inputs.base_force + outputs.thrust * Vector2::new(-roll.sin(), roll.cos());
+        let base_force = inputs.load.base_force + outputs.thrust * Vector2::new(-roll.sin(), roll.cos());
         let push = if outputs.attached { model.parameters.support.stiffness * model.pressed(outputs) } else { 0.0 };
         let support = Vector2::new(0.0, push);
         let weight = Vector2::new(0.0, -model::mass(&bodies) * model.gravity());
-        let force = base_force + inputs.end_effector_force + support + weight;
+        let force = base_force + inputs.load.tip_force + support + weight;
         let moment = outputs.torque
-            + inputs.base_torque
-            + inputs.end_effector_torque
+            + inputs.load.base_torque
+            + inputs.load.tip_torque
             + model::cross(outputs.pose.xy(), base_force)
-            + model::cross(model.end_effector(&at), inputs.end_effector_force)
+            + model::cross(model.end_effector(&at), inputs.load.tip_force)
             + model::cross(model.payload(&at), support)
             + model::weight_moment(&bodies, model.gravity(), Vector2::zeros());
         Vector3::new(force.x, force.y, moment)

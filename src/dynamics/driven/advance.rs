@@ -5,7 +5,7 @@ use super::{Driven, Torques};
 use crate::dynamics::advance::{MOST_STEPS, SAME_INSTANT, TUMBLING};
 use crate::dynamics::contact::{NO_GAP, lowest, switching_instant};
 use crate::dynamics::law::Scene;
-use crate::dynamics::{Account, Dynamics, Impulse, Load, Loads, Motion, Node, Situation, in_inertial_frame};
+use crate::dynamics::{Account, Dynamics, Impulse, Loads, Motion, Node, Situation, in_inertial_frame};
 use crate::error::{Error, Result};
 use crate::kinematics::Posture;
 use crate::planar::{Turn, vec2};
@@ -35,7 +35,7 @@ impl<const N: usize> Dynamics<N> {
         size: f64,
         account: Account<'_, N>,
     ) -> Result<Impulse> {
-        let mut until_sample = self.sample(&mut situation.state, &loads.begin, t);
+        let mut until_sample = self.sample(&mut situation.state, loads.begin, t);
         let sample_time = if until_sample.is_finite() { self.autopilot.sample_time } else { f64::INFINITY };
         let mut phase = Phase::new(situation.flow(self.base));
         let Situation { state, turn, node } = situation;
@@ -46,7 +46,7 @@ impl<const N: usize> Dynamics<N> {
         state.contact = self.touches(&phase.flow, node, state.held);
         let mut elapsed = 0.0;
         let mut stuck = false;
-        let mut room = Load::NONE;
+        let mut room = None;
         while elapsed < size {
             let left = size - elapsed;
             let scene = Scene {

@@ -7,8 +7,8 @@
 use nalgebra::SVector;
 
 use super::{Driven, Torques};
+use crate::dynamics::Dynamics;
 use crate::dynamics::law::{Flow, Node, Scene, turned};
-use crate::dynamics::{Dynamics, Load};
 use crate::momentum::Twist;
 use crate::planar::vec2;
 
@@ -77,7 +77,7 @@ impl<const N: usize> Dynamics<N> {
             self.move_driven(&mut there, driven, self.momentum_in_uav(&at.flow), &momentum);
             there
         };
-        let mut room = Load::NONE;
+        let mut room = None;
         let mut rates = [Phase::new(Flow::zeros()); STAGES];
         for stage in 0..STAGES {
             let t = NODES[stage] * size;
@@ -121,7 +121,7 @@ mod tests {
         let driven = dynamics.driven(&parameters, &start).unwrap().unwrap();
         let motion = Motion { rate: [0.0, -2.0, 0.0].into(), slope: [0.0, 3.0, 0.0].into() };
         let torques = Torques { begin: [0.1, 0.0, -0.05].into(), slope: [-0.4, 0.0, 0.3].into() };
-        let loads = Loads::default();
+        let loads = Loads::CALM;
         let end_in = |steps: u32| {
             let size = 0.3 / f64::from(steps);
             let (mut phase, mut node) = (Phase::new(start.flow(BaseModel::Full)), start.node);

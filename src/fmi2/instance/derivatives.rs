@@ -41,7 +41,7 @@ impl<M: Model> Instance<M> {
     /// If a variable has no derivative of this order, or it has no value at this instant.
     pub fn output_derivatives(&mut self, references: &[u32], orders: &[i32], values: &mut [f64]) -> Result<(), Error> {
         self.permit(Call::GetRealOutputDerivatives)?;
-        self.observe()?;
+        self.now.observe()?;
         let elapsed = self.now.time - self.now.start_time;
         // After a failure nothing is computed any more.
         if let (State::Running | State::Terminated, Some(model)) = (self.now.state, &self.now.model) {

@@ -61,64 +61,64 @@ pub(super) fn declare(table: &mut Table<Data>, structure: Structure) {
     table
         .input()
         .real("autopilot.altitude_reference", &unit::METRE, Bounds::ANY, "Wanted altitude of the UAV", |d, _| {
-            &mut d.inputs.altitude_reference
+            &mut d.inputs.load.altitude
         })
         .real("autopilot.roll_reference", &unit::RADIAN, Bounds::ANY, "Wanted roll of the UAV", |d, _| {
-            &mut d.inputs.roll_reference
+            &mut d.inputs.load.roll
         })
         .real(
             "autopilot.thrust_feedforward",
             &unit::NEWTON,
             Bounds::ANY,
             "Added to the thrust of the pid autopilot",
-            |d, _| &mut d.inputs.thrust_feedforward,
+            |d, _| &mut d.inputs.load.thrust_feedforward,
         )
         .real("autopilot.thrust_command", &unit::NEWTON, Bounds::ANY, "Thrust, if the autopilot is external", |d, _| {
-            &mut d.inputs.thrust_command
+            &mut d.inputs.load.thrust
         })
         .real(
             "autopilot.torque_command",
             &unit::NEWTON_METRE,
             Bounds::ANY,
             "Torque on the UAV, if the autopilot is external",
-            |d, _| &mut d.inputs.torque_command,
+            |d, _| &mut d.inputs.load.torque,
         )
         .real(
             "base.external_force_x",
             &unit::NEWTON,
             Bounds::ANY,
             "External force on the UAV at its centre of mass, to the right",
-            |d, _| &mut d.inputs.base_force.x,
+            |d, _| &mut d.inputs.load.base_force.x,
         )
         .real(
             "base.external_force_y",
             &unit::NEWTON,
             Bounds::ANY,
             "External force on the UAV at its centre of mass, upwards",
-            |d, _| &mut d.inputs.base_force.y,
+            |d, _| &mut d.inputs.load.base_force.y,
         )
         .real("base.external_torque", &unit::NEWTON_METRE, Bounds::ANY, "External torque on the UAV", |d, _| {
-            &mut d.inputs.base_torque
+            &mut d.inputs.load.base_torque
         })
         .real(
             "end_effector.external_force_x",
             &unit::NEWTON,
             Bounds::ANY,
             "External force on the end effector, to the right",
-            |d, _| &mut d.inputs.end_effector_force.x,
+            |d, _| &mut d.inputs.load.tip_force.x,
         )
         .real(
             "end_effector.external_force_y",
             &unit::NEWTON,
             Bounds::ANY,
             "External force on the end effector, upwards",
-            |d, _| &mut d.inputs.end_effector_force.y,
+            |d, _| &mut d.inputs.load.tip_force.y,
         )
         .real(
             "end_effector.external_torque",
             &unit::NEWTON_METRE,
             Bounds::ANY,
             "External torque on the last link",
-            |d, _| &mut d.inputs.end_effector_torque,
+            |d, _| &mut d.inputs.load.tip_torque,
         );
 }
