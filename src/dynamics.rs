@@ -198,6 +198,12 @@ impl<const N: usize> Motion<N> {
         Self { rate, slope: SVector::zeros() }
     }
 
+    /// Whether the rates are constant.
+    #[must_use]
+    pub fn is_steady(&self) -> bool {
+        self.slope.iter().all(|slope| *slope == 0.0)
+    }
+
     /// Rates after the time `t` \[s\].
     #[must_use]
     pub fn rate_after(&self, t: f64) -> SVector<f64, N> {

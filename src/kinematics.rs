@@ -27,6 +27,41 @@ pub struct Posture<const N: usize> {
 
 memory!(Posture<N> { direction, joint, end_effector, payload, counterweight });
 
+/// A displacement of the coordinates, as postures take it: by how much each link turns.
+#[derive(Debug, Clone, Copy)]
+pub struct Displacement<const N: usize> {
+    /// Turns of the links and of a balance element.
+    turn: [Turn; N],
+    /// Way of the counterweight \[m\].
+    slide: f64,
+}
+
+impl<const N: usize> Displacement<N> {
+    /// By `dq` \[rad, m\], usually small.
+    #[inline]
+    #[must_use]
+    pub fn small(vehicle: &Vehicle<N>, dq: &SVector<f64, N>) -> Self {
+        Self::by(vehicle, dq, Turn::by_small)
+    }
+
+    #[inline]
+    fn by(vehicle: &Vehicle<N>, dq: &SVector<f64, N>, turn_by: impl Fn(f64) -> Turn) -> Self {
+        let mut angle = 0.0;
+        let mut turn = [Turn::NONE; N];
+        for i in 0..N {
+            angle += dq[i] * vehicle.revolute[i];
+            turn[i] = turn_by(angle);
+        }
+        let mut slide = 0.0;
+        match vehicle.balancer {
+            None => {}
+            Some(Balancer::Counterweight(_)) => slide = dq[N - 1],
+            Some(Balancer::Element(_)) => turn[N - 1] = turn_by(dq[N - 1]),
+        }
+        Self { turn, slide }
+    }
+}
+
 impl<const N: usize> Posture<N> {
     /// The posture with the coordinates `q` \[rad, m\].
     #[must_use]
@@ -42,34 +77,22 @@ impl<const N: usize> Posture<N> {
             },
         };
         let mut posture = hanging;
-        posture.follow_by(vehicle, &hanging, q, Turn::by);
+        posture.follow(vehicle, &hanging, &Displacement::by(vehicle, q, Turn::by));
         posture
     }
 
-    /// Becomes the posture after a small displacement `dq` \[rad, m\] from the posture `from`.
+    /// Becomes the posture that is `way` from the posture `from`.
     #[inline]
-    pub fn follow(&mut self, vehicle: &Vehicle<N>, from: &Self, dq: &SVector<f64, N>) {
-        self.follow_by(vehicle, from, dq, Turn::by_small);
-    }
-
-    #[inline]
-    fn follow_by(&mut self, vehicle: &Vehicle<N>, from: &Self, dq: &SVector<f64, N>, turn_by: impl Fn(f64) -> Turn) {
-        let mut angle = 0.0;
+    pub fn follow(&mut self, vehicle: &Vehicle<N>, from: &Self, way: &Displacement<N>) {
         let mut tip = vehicle.mount;
         for i in 0..N {
-            angle += dq[i] * vehicle.revolute[i];
-            self.direction[i] = turn_by(angle).apply(from.direction[i]);
+            self.direction[i] = way.turn[i].apply(from.direction[i]);
             self.joint[i] = tip;
             tip += self.direction[i] * vehicle.length[i];
         }
         self.end_effector = tip;
         let last = vehicle.links - 1;
         self.payload = self.joint[last] + self.direction[last] * vehicle.payload_com;
-        self.counterweight = from.counterweight;
-        match vehicle.balancer {
-            None => {}
-            Some(Balancer::Counterweight(_)) => self.counterweight.x += dq[N - 1],
-            Some(Balancer::Element(_)) => self.direction[N - 1] = turn_by(dq[N - 1]).apply(from.direction[N - 1]),
-        }
+        self.counterweight = vec2(from.counterweight.x + way.slide, from.counterweight.y);
     }
 }

@@ -17,6 +17,7 @@ use super::prediction::Prediction;
 use super::resolution::{Problem, Task};
 use super::response::Response;
 use crate::dynamics::{Motion, Situation};
+use crate::kinematics::Displacement;
 use crate::planar::{Turn, Vec2};
 
 impl<const N: usize> Outset<N> {
@@ -57,6 +58,7 @@ impl<const N: usize> Outset<N> {
         let way = self.motion.rate * size;
         state.position += way;
         let mut ahead = Situation { state: *state, ..*here };
+        let way = Displacement::small(&self.dynamics.vehicle, &way);
         ahead.node.follow(&self.dynamics.vehicle, &here.node, &way, state.held, state.rate);
         (ahead, self.now.carried + gained)
     }

@@ -76,7 +76,7 @@ impl<const N: usize> Dynamics<N> {
             };
             let step = account.next(self, node, loads);
             (step.nodes[0], step.from) = (*node, flow);
-            step.rates[0] = self.law(&flow, node, loads.present(elapsed, &mut room), &scene);
+            self.law(&mut step.rates[0], &flow, node, loads.present(elapsed, &mut room), &scene);
             let longest = self.longest_internal_step(step, motion, state.contact, size);
             let most = MOST_STEPS * longest.min(sample_time);
             if left > most {
@@ -198,7 +198,11 @@ impl<const N: usize> Dynamics<N> {
     /// The longest internal step that resolves autopilot, support and the turning of the links.
     fn longest_internal_step(&self, step: &Internal<N>, motion: &Motion<N>, contact: bool, size: f64) -> f64 {
         let (vehicle, Internal { nodes: [node, _], from: flow, rates: [k_1, ..], .. }) = (&self.vehicle, step);
-        let turning = self.turning(&motion.rate).max(self.turning(&motion.rate_after(size))) + TUMBLING * k_1[2].abs();
+        let mut turning = self.turning(&motion.rate);
+        if !motion.is_steady() {
+            turning = turning.max(self.turning(&motion.rate_after(size)));
+        }
+        turning += TUMBLING * k_1[2].abs();
         let longest = LONGEST.min(RESOLUTION / turning.max(self.control_rate));
         if !contact {
             return longest;

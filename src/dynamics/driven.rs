@@ -176,7 +176,7 @@ impl<const N: usize> Dynamics<N> {
         let Situation { state, node, .. } = situation;
         let (vehicle, posture, roll_rate) = (&self.vehicle, &node.posture, state.velocity.z);
         let (flow, scene) = (situation.flow(self.base), Self::scene(&situation.state));
-        let rate = self.law_at(&flow, node, situation.base(), load, &scene);
+        let rate = self.law_in(situation, &flow, load, &scene);
         let base = self.base_acceleration(situation, self.loads_at_end(situation, &rate), imposed);
 
         let drift = outboard_drift(vehicle, posture, state.held, situation.base(), &node.rate);

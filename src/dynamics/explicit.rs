@@ -5,6 +5,7 @@ use nalgebra::{SVector, Vector3};
 
 use super::advance::refreshed;
 use super::{Dynamics, Loads, Situation, State, in_inertial_frame};
+use crate::kinematics::Displacement;
 use crate::momentum::Twist;
 use crate::planar::{Turn, vec2};
 
@@ -21,7 +22,7 @@ impl<const N: usize> Dynamics<N> {
         let flow = here.flow(self.base);
         state.contact = self.touches(&flow, node, state.held);
         let scene = Self::scene(state);
-        let rate = self.law_at(&flow, node, here.base(), load, &scene);
+        let rate = self.law_in(here, &flow, load, &scene);
         state.momentum += Vector3::new(rate[3], rate[4], rate[5]) * size;
         state.integrals += vec2(rate[6], rate[7]) * size;
         self.carried_load(node, &self.carrier(&flow, &rate), load) * size
@@ -55,7 +56,7 @@ impl<const N: usize> Dynamics<N> {
         // Small turns instead of sines spare a third of the step.
         let turned = Turn::by_small(state.velocity.z * size);
         end.turn = if self.base.turns_arm() { here.turn.then(turned) } else { Turn::NONE };
-        end.node.follow(&self.vehicle, &here.node, way, state.held, *rate);
+        end.node.follow(&self.vehicle, &here.node, &Displacement::small(&self.vehicle, way), state.held, *rate);
     }
 
     /// Displaces the coordinates in `situation` by a `way` so short that all is linear in it, after which the rates are
@@ -67,7 +68,7 @@ impl<const N: usize> Dynamics<N> {
         state.position += way;
         state.rate = *rate;
         let posture = node.posture;
-        node.posture.follow(&self.vehicle, &posture, way);
+        node.posture.follow(&self.vehicle, &posture, &Displacement::small(&self.vehicle, way));
         node.matrix.sum_up(&self.vehicle, &node.posture, state.held);
         node.move_at(*rate);
         if self.base.turns_arm() {

@@ -4,7 +4,7 @@ use nalgebra::{SVector, Vector3};
 
 use super::{Dynamics, Load, Loads, Motion, Situation, State, in_inertial_frame};
 use crate::autopilot::AutopilotMode;
-use crate::kinematics::Posture;
+use crate::kinematics::{Displacement, Posture};
 use crate::memory;
 use crate::momentum::{MomentumMatrix, Twist};
 use crate::parameters::BaseModel;
@@ -56,7 +56,7 @@ impl<const N: usize> Node<N> {
         Self { posture, matrix, rate, arm }
     }
 
-    /// Becomes the arm after a small displacement `dq` from the node `from`, moving at `rate`.
+    /// Becomes the arm that is `way` from the node `from`, moving at `rate`.
     ///
     /// In place: returned by value, a node is copied as often as it is passed on, which takes longer than its sums.
     #[inline]
@@ -64,11 +64,11 @@ impl<const N: usize> Node<N> {
         &mut self,
         vehicle: &Vehicle<N>,
         from: &Self,
-        dq: &SVector<f64, N>,
+        way: &Displacement<N>,
         held: bool,
         rate: SVector<f64, N>,
     ) {
-        self.posture.follow(vehicle, &from.posture, dq);
+        self.posture.follow(vehicle, &from.posture, way);
         self.matrix.sum_up(vehicle, &self.posture, held);
         self.move_at(rate);
     }
@@ -172,16 +172,23 @@ impl<const N: usize> Dynamics<N> {
         }
     }
 
-    /// Rates of the flow.
+    /// Rates of the flow, written to `k`.
     #[inline]
-    pub(super) fn law(&self, y: &Flow, node: &Node<N>, load: &Load, scene: &Scene<'_, N>) -> Flow {
+    pub(super) fn law(&self, k: &mut Flow, y: &Flow, node: &Node<N>, load: &Load, scene: &Scene<'_, N>) {
         let v = self.base_velocity(y, self.arm_turn(y), node);
-        self.law_at(y, node, v, load, scene)
+        self.law_at(k, y, node, v, load, scene);
+    }
+
+    /// Rates of the `flow` of a `situation`, for a base that moves as it did just before the present instant.
+    pub(super) fn law_in(&self, situation: &Situation<N>, flow: &Flow, load: &Load, scene: &Scene<'_, N>) -> Flow {
+        let mut k = Flow::zeros();
+        self.law_at(&mut k, flow, &situation.node, situation.base(), load, scene);
+        k
     }
 
     /// [`Dynamics::law`] for a base that moves with `v`, axes of the UAV frame.
     #[inline]
-    pub(super) fn law_at(&self, y: &Flow, node: &Node<N>, v: Twist, load: &Load, scene: &Scene<'_, N>) -> Flow {
+    fn law_at(&self, k: &mut Flow, y: &Flow, node: &Node<N>, v: Twist, load: &Load, scene: &Scene<'_, N>) {
         let turn = self.arm_turn(y);
         let velocity = in_inertial_frame(turn, v);
         let mut control = self.control(y, &velocity, load, scene);
@@ -198,10 +205,10 @@ impl<const N: usize> Dynamics<N> {
 
         let error = if self.continuous { vec2(y[1] - load.altitude, y[2] - load.roll) } else { Vec2::zeros() };
         let turning = vec2(-y[9], y[8]) * velocity.z;
-        Flow::from([
+        *k = Flow::from([
             velocity.x, velocity.y, velocity.z, force.x, force.y, angular, error.x, error.y, turning.x, turning.y,
             control.y, support,
-        ])
+        ]);
     }
 
     /// The UAV with the flow `y` and its rates `k`, as [`Dynamics::law`] gives them.

@@ -6,6 +6,7 @@
 
 use super::law::{Carrier, Flow, Node, Scene, turned};
 use super::{Dynamics, Load, Loads};
+use crate::kinematics::Displacement;
 
 /// An internal step, as far as it is of interest afterwards; only the arm at its end is kept elsewhere.
 #[derive(Debug, Clone)]
@@ -46,18 +47,23 @@ impl<const N: usize> Dynamics<N> {
     /// there, and the arm. The arm at the end is written to `end`, all else to `step`.
     pub(super) fn internal_step(&self, step: &mut Internal<N>, size: f64, scene: &Scene<'_, N>, end: &mut Node<N>) {
         let half = 0.5 * size;
+        let Scene { motion, held, .. } = scene;
         let [begin, middle] = &mut step.nodes;
-        middle.follow(&self.vehicle, begin, &scene.motion.way(half), scene.held, scene.motion.rate_after(half));
-        end.follow(&self.vehicle, begin, &scene.motion.way(size), scene.held, scene.motion.rate_after(size));
+        let way = |t: f64| Displacement::small(&self.vehicle, &motion.way(t));
+        let first_half = way(half);
+        middle.follow(&self.vehicle, begin, &first_half, *held, motion.rate_after(half));
+        // At constant rates the second half is like the first one.
+        let (from, way) = if motion.is_steady() { (&*middle, first_half) } else { (&*begin, way(size)) };
+        end.follow(&self.vehicle, from, &way, *held, motion.rate_after(size));
         (step.elapsed, step.size, step.held) = (scene.elapsed, size, scene.held);
 
         let mut room = None;
         let [_, load_2, load_4] = scene.loads.at([scene.elapsed, size], &mut room);
 
         let (from, [k_1, k_2, k_3, k_4]) = (&step.from, &mut step.rates);
-        *k_2 = self.law(&after(from, k_1, half), middle, load_2, scene);
-        *k_3 = self.law(&after(from, k_2, half), middle, load_2, scene);
-        *k_4 = self.law(&after(from, k_3, size), end, load_4, scene);
+        self.law(k_2, &after(from, k_1, half), middle, load_2, scene);
+        self.law(k_3, &after(from, k_2, half), middle, load_2, scene);
+        self.law(k_4, &after(from, k_3, size), end, load_4, scene);
         let sixth = size / 6.0;
         step.to = Flow::from_fn(|i, _| from[i] + (k_1[i] + (k_2[i] + k_3[i]) * 2.0 + k_4[i]) * sixth);
         turned(&mut step.to, from);
@@ -127,7 +133,7 @@ mod tests {
             };
             for _ in 0..steps {
                 step.nodes[0] = node;
-                step.rates[0] = dynamics.law(&flow, &node, loads.begin, &scene);
+                dynamics.law(&mut step.rates[0], &flow, &node, loads.begin, &scene);
                 step.from = flow;
                 dynamics.internal_step(&mut step, size, &scene, &mut node);
                 flow = step.to;

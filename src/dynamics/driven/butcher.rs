@@ -9,6 +9,7 @@ use nalgebra::SVector;
 use super::{Driven, Torques};
 use crate::dynamics::Dynamics;
 use crate::dynamics::law::{Flow, Node, Scene, turned};
+use crate::kinematics::Displacement;
 use crate::momentum::Twist;
 use crate::planar::vec2;
 
@@ -72,6 +73,7 @@ impl<const N: usize> Dynamics<N> {
         let arm = |at: &Phase<N>, t: f64| {
             let way = scene.motion.way(t) + (at.way - phase.way);
             let mut there = *node;
+            let way = Displacement::small(&self.vehicle, &way);
             there.follow(&self.vehicle, node, &way, scene.held, scene.motion.rate_after(t));
             let momentum = driven.momentum + at.outboard + torques.impulse(scene.elapsed + t);
             self.move_driven(&mut there, driven, self.momentum_in_uav(&at.flow), &momentum);
@@ -84,7 +86,8 @@ impl<const N: usize> Dynamics<N> {
             let at = phase.after(&rates[..stage], &STAGE[stage], size);
             let there = if stage == 0 { *node } else { arm(&at, t) };
             let load = scene.loads.present(scene.elapsed + t, &mut room);
-            let flow = self.law(&at.flow, &there, load, scene);
+            let mut flow = Flow::zeros();
+            self.law(&mut flow, &at.flow, &there, load, scene);
             let outboard = self.outboard_load(&there, &self.carrier(&at.flow, &flow), scene.held, load);
             rates[stage] = Phase { flow, way: driven.part(&there.rate), outboard };
         }
