@@ -85,9 +85,12 @@ impl<const N: usize> Dynamics<N> {
         let mut room = None;
         let [load_1, load_2, load_4] = loads.at([*elapsed, *size], &mut room);
         let (y_2, y_3, y_4) = (after(from, k_1, 0.5 * size), after(from, k_2, 0.5 * size), after(from, k_3, *size));
-        entry(begin, &self.carrier(from, k_1), load_1, size / 6.0);
-        entry(middle, &self.carrier(&mean(&y_2, &y_3), &mean(k_2, k_3)), load_2, size * (2.0 / 3.0));
-        entry(end, &self.carrier(&y_4, k_4), load_4, size / 6.0);
+        let carriers =
+            [self.carrier(from, k_1), self.carrier(&mean(&y_2, &y_3), &mean(k_2, k_3)), self.carrier(&y_4, k_4)];
+        let instants = [begin, middle, end].into_iter().zip(&carriers).zip([load_1, load_2, load_4]);
+        for (((node, carrier), load), share) in instants.zip([1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0]) {
+            entry(node, carrier, load, size * share);
+        }
     }
 }
 
