@@ -18,7 +18,7 @@ mod outboard;
 mod rates;
 mod runge_kutta;
 
-use std::ops::Add;
+use std::ops::{Add, Sub};
 
 use nalgebra::{SVector, Vector3};
 
@@ -216,17 +216,18 @@ impl<const N: usize> Motion<N> {
         (self.rate + self.slope * (0.5 * t)) * t
     }
 
-    /// How much farther than `other` it leads in the time `t` \[s\], and how much faster it is then.
-    #[must_use]
-    pub fn beyond(&self, other: &Self, t: f64) -> [SVector<f64, N>; 2] {
-        let (rate, slope) = (self.rate - other.rate, self.slope - other.slope);
-        [(rate + slope * (0.5 * t)) * t, rate + slope * t]
-    }
-
     /// The motion that remains after the time `t` \[s\].
     #[must_use]
     pub fn after(&self, t: f64) -> Self {
         Self { rate: self.rate_after(t), slope: self.slope }
+    }
+}
+
+impl<const N: usize> Sub for Motion<N> {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        Self { rate: self.rate - other.rate, slope: self.slope - other.slope }
     }
 }
 

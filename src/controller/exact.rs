@@ -13,7 +13,7 @@ use super::outset::Outset;
 use super::plan::Plan;
 use super::prediction::Prediction;
 use super::resolution::{Problem, Task};
-use crate::dynamics::{Account, Carried, Loads, Motion, Situation};
+use crate::dynamics::{Account, Loads, Motion, Situation};
 use crate::error::Result;
 use crate::parameters::Hold;
 use crate::planar::Vec2;
@@ -80,7 +80,8 @@ impl<const N: usize> Outset<N> {
             } else {
                 Motion::constant(resolved.rate)
             };
-            let [way, last] = motion.beyond(&plan.motion, horizon);
+            let change = motion - plan.motion;
+            let (way, last) = (change.way(horizon), change.rate_after(horizon));
             plan = Plan::of(&resolved, motion);
             if (way.norm() + last.norm() * horizon) * self.resolver.reach <= ON_REFERENCE {
                 // So little is linear. Where the path is given up in part, it also says when nothing changes any more.
@@ -125,12 +126,13 @@ impl<const N: usize> Outset<N> {
     /// # Errors
     /// If it cannot be integrated.
     pub fn carry_out(&self, plan: &mut Plan<N>, t: f64, horizon: f64, end: &mut Prediction<N>) -> Result<f64> {
-        let dynamics = &self.dynamics;
-        end.situation = self.now.situation;
-        let mut carried = Carried::none(&end.situation.node);
-        dynamics.advance(&mut end.situation, &plan.motion, &Loads::CALM, t, horizon, Account::Carried(&mut carried))?;
-        self.weigh(plan, carried.sum, horizon, end);
-        Ok(carried.sum)
+        let Prediction { situation, way, .. } = end;
+        *situation = self.now.situation;
+        way.sum = 0.0;
+        self.dynamics.advance(situation, &plan.motion, &Loads::CALM, t, horizon, Account::Carried(way))?;
+        let impulse = way.sum;
+        self.weigh(plan, impulse, horizon, end);
+        Ok(impulse)
     }
 
     /// Makes the angular momentum at the `end` follow from its situation, and the moment on the UAV that is left in the

@@ -98,13 +98,15 @@ impl Resolver {
 
     /// Takes over what may change during a run.
     pub fn tune(&mut self, parameters: &Parameters) {
-        self.gradient_gain = parameters.ik.gradient_gain;
-        self.rate_penalty = parameters.ik.rate_penalty;
-        self.balancing_time = parameters.counterweight.time_constant;
         let joints = &parameters.joints[..self.links];
         self.weights.tune(joints);
         self.limits.iter_mut().zip(joints).for_each(|(limits, joint)| *limits = joint.into());
-        self.limits[self.links] = (&parameters.counterweight).into();
+        self.gradient_gain = parameters.ik.gradient_gain;
+        if self.kind == Resolution::LeastSquares {
+            self.rate_penalty = parameters.ik.rate_penalty;
+            self.balancing_time = parameters.counterweight.time_constant;
+            self.limits[self.links] = (&parameters.counterweight).into();
+        }
     }
 
     /// Whether the method asks for rates without moment on the UAV.
@@ -133,14 +135,15 @@ impl Resolver {
         problem: &Problem<N>,
     ) -> Resolved<N> {
         let found = match self.kind {
-            // The smallest rates: right pseudo-inverse of the generalized Jacobian (thesis 1.8).
-            Resolution::MinimumNorm => self.along_path(problem, false),
+            Resolution::LeastSquares => return self.least_squares(vehicle, interval, problem),
             Resolution::Gradient => {
                 self.nearest(problem, &gradient::preferred(vehicle, interval.beginning, self.gradient_gain))
             }
-            // One more row below the generalized Jacobian (thesis 3.2, 3.3 and 3.6).
-            Resolution::ExtendedJacobian | Resolution::AccelerationLevel => self.along_path(problem, true),
-            Resolution::LeastSquares => return self.least_squares(vehicle, interval, problem),
+            // The smallest rates: right pseudo-inverse of the generalized Jacobian (thesis 1.8), or one more row below it
+            // (thesis 3.2, 3.3 and 3.6).
+            Resolution::MinimumNorm | Resolution::ExtendedJacobian | Resolution::AccelerationLevel => {
+                self.along_path(problem, self.cancels_moment())
+            }
         };
         self.scaled(problem, &found)
     }

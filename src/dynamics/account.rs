@@ -90,7 +90,7 @@ impl<const N: usize> Outboard<N> {
 
 /// The impulse of the moments of weight and outer loads on what the UAV carries, about the UAV's centre of mass, less
 /// its velocity x momentum, as the moment model has it.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Copy)]
 pub struct Carried<const N: usize> {
     /// The impulse \[N m s\].
     pub sum: f64,

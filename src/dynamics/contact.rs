@@ -60,7 +60,7 @@ impl<const N: usize> Dynamics<N> {
     #[cold]
     #[inline(never)]
     fn margin_after(&self, length: f64, step: &Internal<N>, scene: &Scene<'_, N>) -> f64 {
-        let mut step = step.clone();
+        let mut step = *step;
         let mut end = step.nodes[0];
         self.internal_step(&mut step, length, scene, &mut end);
         self.margin(&step.to, &end, scene)

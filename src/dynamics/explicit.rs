@@ -60,7 +60,7 @@ impl<const N: usize> Dynamics<N> {
     }
 
     /// Displaces the coordinates in `situation` by a `way` so short that all is linear in it, after which the rates are
-    /// `rate`. Momentum stays, and the base gives way.
+    /// `rate`. Momentum stays, and the base gives way; the sums over the arm stay, for the next instant makes them anew.
     pub fn displace(&self, situation: &mut Situation<N>, way: &SVector<f64, N>, rate: &SVector<f64, N>) {
         let Situation { state, turn, node } = situation;
         let base = self.base_motion(node, Twist::ZERO, node.matrix.of_rates(way));
@@ -69,7 +69,6 @@ impl<const N: usize> Dynamics<N> {
         state.rate = *rate;
         let posture = node.posture;
         node.posture.follow(&self.vehicle, &posture, &Displacement::small(&self.vehicle, way));
-        node.matrix.sum_up(&self.vehicle, &node.posture, state.held);
         node.move_at(*rate);
         if self.base.turns_arm() {
             *turn = turn.then(Turn::by_small(base.angular));

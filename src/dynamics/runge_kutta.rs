@@ -9,7 +9,7 @@ use super::{Dynamics, Load, Loads};
 use crate::kinematics::Displacement;
 
 /// An internal step, as far as it is of interest afterwards; only the arm at its end is kept elsewhere.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Copy)]
 pub(super) struct Internal<const N: usize> {
     /// The arm at the beginning and in the middle.
     pub nodes: [Node<N>; 2],
