@@ -51,24 +51,29 @@ impl Leg {
     pub const NONE: Self = Self { start: 0.0, duration: 0.0, ramp: 0.0, dx: 0.0, dy: 0.0, profile: Profile::Smooth };
 
     /// Share of the way (0 to 1), its rate \[1/s\] and its second derivative \[1/s2\] at time `t` \[s\].
-    #[inline]
     #[must_use]
     pub fn progress(&self, t: f64) -> [f64; 3] {
+        self.begun(t).unwrap_or_default()
+    }
+
+    /// The same; none before it begins.
+    #[inline]
+    fn begun(&self, t: f64) -> Option<[f64; 3]> {
         let elapsed = t - self.start;
         if elapsed <= 0.0 || self.duration == 0.0 {
-            return [0.0; 3];
+            return None;
         }
         let left = self.duration - elapsed;
         if left <= 0.0 {
-            return [1.0, 0.0, 0.0];
+            return Some([1.0, 0.0, 0.0]);
         }
         let cruise = 1.0 / (self.duration - self.ramp);
-        let nearer = elapsed.min(left);
+        let nearer = if elapsed < left { elapsed } else { left };
         if nearer >= self.ramp {
-            return [cruise * (elapsed - 0.5 * self.ramp), cruise, 0.0];
+            return Some([cruise * (elapsed - 0.5 * self.ramp), cruise, 0.0]);
         }
         let [way, rate, acceleration] = self.profile.ramp(nearer, self.ramp).map(|value| cruise * value);
-        if elapsed < left { [way, rate, acceleration] } else { [1.0 - way, rate, -acceleration] }
+        Some(if elapsed < left { [way, rate, acceleration] } else { [1.0 - way, rate, -acceleration] })
     }
 }
 
@@ -161,10 +166,7 @@ impl Reference {
         match self.kind {
             ReferenceKind::Path => {
                 for leg in &self.legs {
-                    let [share, rate, acceleration] = leg.progress(t);
-                    if share == 0.0 {
-                        continue;
-                    }
+                    let Some([share, rate, acceleration]) = leg.begun(t) else { continue };
                     let way = vec2(leg.dx, leg.dy);
                     target.displacement += way * share;
                     target.velocity += way * rate;

@@ -31,6 +31,7 @@ pub(super) struct Outset<const N: usize> {
 impl<const N: usize> Outset<N> {
     /// How the system answers to the rates that the resolution may use, where the arm is at `node` and turned by
     /// `turn`, with the momentum of `state`.
+    #[inline]
     pub fn response(&self, node: &Node<N>, turn: Turn, state: &State<N>) -> Response<N> {
         Response::new(&self.dynamics, node, turn, state.momentum_in(turn), self.resolver.holds_balancer)
     }

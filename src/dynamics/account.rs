@@ -27,7 +27,7 @@ impl<const N: usize> Account<'_, N> {
     #[inline]
     pub(super) fn made(&mut self, dynamics: &Dynamics<N>, node: &Node<N>, loads: &Loads) {
         if let Self::Carried(carried) = self
-            && !dynamics.carried_load_is_a_balance()
+            && !dynamics.neglects_nothing()
         {
             carried.add(dynamics, node, loads);
         }

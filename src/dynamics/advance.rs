@@ -117,7 +117,7 @@ impl<const N: usize> Dynamics<N> {
         state.rate = motion.rate_after(size);
         let impulse = self.impulse(state, &momentum, &flow, node, loads, size);
         if let Account::Carried(carried) = account
-            && self.carried_load_is_a_balance()
+            && self.neglects_nothing()
         {
             carried.sum = state.momentum.z
                 - momentum.z

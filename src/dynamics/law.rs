@@ -180,6 +180,7 @@ impl<const N: usize> Dynamics<N> {
     }
 
     /// Rates of the `flow` of a `situation`, for a base that moves as it did just before the present instant.
+    #[inline]
     pub(super) fn law_in(&self, situation: &Situation<N>, flow: &Flow, load: &Load, scene: &Scene<'_, N>) -> Flow {
         let mut k = Flow::zeros();
         self.law_at(&mut k, flow, &situation.node, situation.base(), load, scene);

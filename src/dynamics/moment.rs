@@ -31,6 +31,7 @@ impl<const N: usize> Dynamics<N> {
     }
 
     /// The right-hand side of the law above without the moment on the UAV \[N m\].
+    #[inline]
     pub(super) fn carried_load(&self, node: &Node<N>, carrier: &Carrier, load: &Load) -> f64 {
         let Carrier { turn, motion: v, support } = *carrier;
         let v = self.felt(v, turn);
@@ -46,15 +47,17 @@ impl<const N: usize> Dynamics<N> {
     #[must_use]
     pub fn carried_angular(&self, node: &Node<N>, turn: Turn, v: Twist, arm: Twist, system: f64) -> f64 {
         let uav = |v: Twist| self.vehicle.uav_inertia * v.angular;
-        if self.carried_load_is_a_balance() {
+        if self.neglects_nothing() {
             return system - uav(v);
         }
         let felt = self.felt(v, turn);
         node.matrix.of_base(felt).angular - uav(felt) + arm.angular
     }
 
-    /// Whether its integral follows from changes of momentum, because the UAV feels all that the arm does.
-    pub(super) fn carried_load_is_a_balance(&self) -> bool {
+    /// Whether neither the model of the base nor that of the moment neglects anything: the arm feels all that the base
+    /// does, and the integral of the carried load follows from changes of momentum.
+    #[must_use]
+    pub fn neglects_nothing(&self) -> bool {
         self.base == BaseModel::Full && self.moment_model == MomentModel::FreeBase
     }
 }
