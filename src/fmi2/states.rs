@@ -4,7 +4,6 @@
 //! in a list. So whatever a host hands over that is no state, or none any more, is noticed and does no harm.
 
 use std::any::Any;
-use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::c_types::FmuState;
@@ -13,13 +12,15 @@ use super::c_types::FmuState;
 type Shared = Arc<Mutex<dyn Any + Send>>;
 
 struct Entry {
+    /// Of the state, unique among all libraries of a process.
+    address: usize,
     state: Shared,
     /// The instance with whose end the state ends.
     owner: usize,
 }
 
-/// By the addresses of the states, which are unique among all libraries of a process.
-static ALIVE: Mutex<BTreeMap<usize, Entry>> = Mutex::new(BTreeMap::new());
+/// Searched from the end: hosts mostly use the state that they got last.
+static ALIVE: Mutex<Vec<Entry>> = Mutex::new(Vec::new());
 
 /// Nothing is left half-changed under the lock, so a panic of another thread does no harm.
 fn lock<T: ?Sized>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
@@ -30,13 +31,15 @@ fn lock<T: ?Sized>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 pub fn keep<T: Send + 'static>(state: T, owner: usize) -> FmuState {
     let state: Shared = Arc::new(Mutex::new(state));
     let handle: FmuState = Arc::as_ptr(&state).cast_mut().cast();
-    lock(&ALIVE).insert(handle.addr(), Entry { state, owner });
+    lock(&ALIVE).push(Entry { address: handle.addr(), state, owner });
     handle
 }
 
 /// Calls `body` with the state behind a handle; `None` if there is none of this type.
 pub fn with<T: 'static, R>(handle: FmuState, body: impl FnOnce(&mut T) -> R) -> Option<R> {
-    let state = lock(&ALIVE).get(&handle.addr()).map(|entry| Arc::clone(&entry.state))?;
+    let alive = lock(&ALIVE);
+    let state = alive.get(position(&alive, handle)?).map(|entry| Arc::clone(&entry.state))?;
+    drop(alive);
     let mut state = lock(&state);
     state.downcast_mut().map(body)
 }
@@ -45,21 +48,30 @@ pub fn with<T: 'static, R>(handle: FmuState, body: impl FnOnce(&mut T) -> R) -> 
 pub fn free<T: 'static>(handle: FmuState) -> bool {
     let known = with::<T, _>(handle, |_| ()).is_some();
     let mut alive = lock(&ALIVE);
-    let removed = known && alive.remove(&handle.addr()).is_some();
-    give_back(&mut alive);
-    removed
+    match position(&alive, handle).filter(|_| known) {
+        None => false,
+        Some(position) => {
+            alive.swap_remove(position);
+            give_back(&mut alive);
+            true
+        }
+    }
 }
 
 /// Ends the life of all states of an owner.
 pub fn free_all(owner: usize) {
     let mut alive = lock(&ALIVE);
-    alive.retain(|_, entry| entry.owner != owner);
+    alive.retain(|entry| entry.owner != owner);
     give_back(&mut alive);
 }
 
-/// A map that has become empty keeps memory, which would be lost when the host unloads the library.
-fn give_back(alive: &mut BTreeMap<usize, Entry>) {
+fn position(alive: &[Entry], handle: FmuState) -> Option<usize> {
+    alive.iter().rposition(|entry| entry.address == handle.addr())
+}
+
+/// A list that has become empty keeps memory, which would be lost when the host unloads the library.
+fn give_back(alive: &mut Vec<Entry>) {
     if alive.is_empty() {
-        *alive = BTreeMap::new();
+        *alive = Vec::new();
     }
 }
