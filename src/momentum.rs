@@ -113,41 +113,38 @@ impl<const N: usize> MomentumMatrix<N> {
     /// Becomes the matrices of another posture.
     #[inline]
     pub fn sum_up(&mut self, vehicle: &Vehicle<N>, posture: &Posture<N>, held: bool) {
-        let bodies = vehicle.bodies(held);
-        // Composite of all links from i outwards, about joint i.
-        let (mut mass, mut first, mut inertia) = (0.0, Vec2::zeros(), 0.0);
+        let masses = vehicle.masses(held);
+        // Of all links from i outwards, about joint i.
+        let (mut first, mut inertia) = (Vec2::zeros(), 0.0);
         for i in (0..N).rev() {
-            let (body, direction, length) = (&bodies[i], posture.direction[i], vehicle.length[i]);
-            inertia += body.second + length * (2.0 * direction.dot(&first) + mass * length);
-            first += direction * (body.first + mass * length);
-            mass += body.mass;
+            let (body, direction) = (&masses.augmented[i], posture.direction[i]);
+            inertia += body.second + 2.0 * vehicle.length[i] * direction.dot(&first);
+            first += direction * body.first;
             self.outboard_first[i] = first;
             self.columns[i] = Twist { linear: perp(first), angular: posture.joint[i].dot(&first) + inertia };
         }
-        inertia += vehicle.uav_inertia + vehicle.mount.dot(&(2.0 * first + mass * vehicle.mount));
-        first += vehicle.mount * mass;
-        mass += vehicle.uav_mass;
+        let arm = masses.augmented[0].mass;
+        inertia += vehicle.uav_inertia + vehicle.mount.dot(&(2.0 * first + arm * vehicle.mount));
+        first += vehicle.mount * arm;
         match vehicle.balancer {
             None => {}
             Some(Balancer::Counterweight(slider)) => {
                 let place = posture.counterweight;
                 inertia += slider.inertia + slider.mass * place.norm_squared();
                 first += place * slider.mass;
-                mass += slider.mass;
                 self.columns[N - 1] = Twist { linear: vec2(slider.mass, 0.0), angular: -slider.mass * place.y };
             }
             Some(Balancer::Element(body)) => {
                 let own = posture.direction[N - 1] * body.first;
                 inertia += body.second;
                 first += own;
-                mass += body.mass;
                 self.outboard_first[N - 1] = own;
                 self.columns[N - 1] = Twist { linear: perp(own), angular: body.second };
             }
         }
-        self.mass = mass;
+        self.mass = masses.whole;
         self.first = first;
-        self.lightness = 1.0 / mass;
+        self.lightness = masses.lightness;
         self.center = first * self.lightness;
         self.inertia = inertia;
         self.compliance = 1.0 / (inertia - first.dot(&self.center));
@@ -205,7 +202,7 @@ pub fn outboard_momentum<const N: usize>(
     v: Twist,
     rate: &SVector<f64, N>,
 ) -> SVector<f64, N> {
-    let bodies = vehicle.bodies(held);
+    let bodies = &vehicle.masses(held).links;
     let motions = link_motions(vehicle, posture, v, rate);
     let own = std::array::from_fn(|i| body_momentum(&bodies[i], posture.direction[i], motions[i]));
     let mut momentum = sums_outboard(vehicle, posture, &own);
@@ -247,7 +244,7 @@ pub fn outboard_drift<const N: usize>(
     v: Twist,
     rate: &SVector<f64, N>,
 ) -> SVector<f64, N> {
-    let bodies = vehicle.bodies(held);
+    let bodies = &vehicle.masses(held).links;
     let motions = link_motions(vehicle, posture, v, rate);
     let mut drift = SVector::zeros();
     let mut outer = Vec2::zeros();

@@ -32,6 +32,33 @@ impl Body {
     }
 }
 
+/// The links and what follows from them and all other masses for sums over the vehicle.
+#[derive(Debug, Clone, Copy)]
+pub struct Masses<const N: usize> {
+    /// The links.
+    pub links: [Body; N],
+    /// The augmented links: each with the mass of all links outboard of it placed at its tip.
+    pub augmented: [Body; N],
+    /// Mass of the whole system \[kg\].
+    pub whole: f64,
+    /// Inverse mass of the whole system \[1/kg\].
+    pub lightness: f64,
+}
+
+impl<const N: usize> Masses<N> {
+    #[inline(never)]
+    fn new(links: [Body; N], length: &[f64; N], others: f64) -> Self {
+        let (mut augmented, mut outboard) = (links, 0.0);
+        for (body, length) in augmented.iter_mut().zip(length).rev() {
+            let mass = body.mass;
+            *body = body.with(Body::new(outboard, *length, 0.0));
+            outboard += mass;
+        }
+        let whole = outboard + others;
+        Self { links, augmented, whole, lightness: 1.0 / whole }
+    }
+}
+
 /// A counterweight that slides along the UAV's x axis without turning.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Slider {
@@ -78,8 +105,8 @@ pub struct Vehicle<const N: usize> {
     pub payload_mass: f64,
     /// Distance of the held payload from the last joint \[m\].
     pub payload_com: f64,
-    empty: [Body; N],
-    loaded: [Body; N],
+    empty: Masses<N>,
+    loaded: Masses<N>,
 }
 
 impl Balancer {
@@ -128,6 +155,8 @@ impl<const N: usize> Vehicle<N> {
         }
         let mut loaded = empty;
         loaded[links - 1] = empty[links - 1].with(Body::new(payload.mass, payload.com, 0.0));
+        let balancer = Balancer::new(structure.balance, parameters);
+        let others = parameters.uav.mass + balancer.map_or(0.0, |balancer| balancer.mass());
         Ok(Self {
             links,
             revolute: std::array::from_fn(|i| if i < links { 1.0 } else { 0.0 }),
@@ -136,30 +165,31 @@ impl<const N: usize> Vehicle<N> {
             uav_inertia: parameters.uav.inertia,
             mount: vec2(parameters.mount.x, parameters.mount.y),
             length,
-            balancer: Balancer::new(structure.balance, parameters),
+            balancer,
             payload_mass: payload.mass,
             payload_com: payload.com,
-            empty,
-            loaded,
+            empty: Masses::new(empty, &length, others),
+            loaded: Masses::new(loaded, &length, others),
         })
     }
 
-    /// The links, the last one with the payload if it is `held`.
+    /// All masses, the payload's with the last link's if it is `held`.
+    #[inline]
     #[must_use]
-    pub fn bodies(&self, held: bool) -> &[Body; N] {
+    pub fn masses(&self, held: bool) -> &Masses<N> {
         if held { &self.loaded } else { &self.empty }
     }
 
     /// Mass of UAV, arm and what balances it, without the payload \[kg\].
     #[must_use]
     pub fn mass(&self) -> f64 {
-        self.uav_mass + self.carried_mass()
+        self.empty.whole
     }
 
     /// Mass of the arm and what balances it, without the payload \[kg\].
     #[must_use]
     pub fn carried_mass(&self) -> f64 {
-        self.empty.iter().map(|body| body.mass).sum::<f64>() + self.balancer.map_or(0.0, |balancer| balancer.mass())
+        self.empty.whole - self.uav_mass
     }
 
     /// Largest distance of a point of the stretched arm from the UAV's centre of mass \[m\].

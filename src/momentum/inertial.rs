@@ -51,7 +51,7 @@ fn link_loads<const N: usize>(
     rate: &SVector<f64, N>,
     slope: &SVector<f64, N>,
 ) -> [Twist; N] {
-    let bodies = vehicle.bodies(held);
+    let bodies = &vehicle.masses(held).links;
     let (links, _) = link_accelerations(vehicle, posture, Twist::ZERO, roll_rate, rate, slope);
     std::array::from_fn(|i| {
         let (body, Acceleration { joint, spread, angular }) = (&bodies[i], links[i]);
