@@ -44,6 +44,13 @@ impl<const N: usize> Displacement<N> {
         Self::by(vehicle, dq, Turn::by_small)
     }
 
+    /// By `dq` \[rad, m\] so small that its square is nothing.
+    #[inline]
+    #[must_use]
+    pub fn tiny(vehicle: &Vehicle<N>, dq: &SVector<f64, N>) -> Self {
+        Self::by(vehicle, dq, Turn::by_tiny)
+    }
+
     #[inline]
     fn by(vehicle: &Vehicle<N>, dq: &SVector<f64, N>, turn_by: impl Fn(f64) -> Turn) -> Self {
         let mut angle = 0.0;

@@ -71,6 +71,13 @@ impl Turn {
         Self { cos, sin }
     }
 
+    /// By `angle` \[rad\] so small that its square is nothing.
+    #[inline]
+    #[must_use]
+    pub const fn by_tiny(angle: f64) -> Self {
+        Self { cos: 1.0, sin: angle }
+    }
+
     /// This turn and then `other`.
     #[inline]
     #[must_use]

@@ -66,6 +66,36 @@ fn the_prediction_is_the_plant() {
     }
 }
 
+/// At a millisecond most plans end where a first guess leads, displaced by the little that it leaves: arm and base.
+#[test]
+fn what_a_guess_leaves_is_displaced_in_the_prediction() {
+    for resolution in [Resolution::MinimumNorm, Resolution::ExtendedJacobian] {
+        let mut coupling = Coupling::new(DEFAULT, &with(|p| p.ik.resolution = resolution));
+        for _ in 0..1500 {
+            coupling.step(1e-3);
+            let (o, c) = (&coupling.plant.outputs, &coupling.commands);
+            assert_close(&c.predicted_position, &o.position, 1e-12, "position");
+            assert_close(c.predicted_end_effector.as_slice(), o.end_effector.as_slice(), 5e-13, "end effector");
+        }
+    }
+}
+
+/// A step of nearly no time leaves the plan, but not to be taken up as if nothing of it had passed.
+#[test]
+fn a_plan_is_taken_up_once() {
+    for discretization in [Discretization::Exact, Discretization::Euler] {
+        let mut coupling = Coupling::new(DEFAULT, &with(|p| p.ik.discretization = discretization));
+        for _ in 0..20 {
+            coupling.step(0.01);
+        }
+        for size in [1e-10, 0.01, 0.01] {
+            coupling.step(size);
+            let (o, c) = (&coupling.plant.outputs, &coupling.commands);
+            assert_close(c.predicted_end_effector.as_slice(), o.end_effector.as_slice(), 1e-4, "end effector");
+        }
+    }
+}
+
 /// On the carriage, too, the arm keeps moments off the base: what the plant measures is zero.
 #[test]
 fn the_extended_jacobian_keeps_moments_off_the_base() {

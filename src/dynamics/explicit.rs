@@ -68,10 +68,10 @@ impl<const N: usize> Dynamics<N> {
         state.position += way;
         state.rate = *rate;
         let posture = node.posture;
-        node.posture.follow(&self.vehicle, &posture, &Displacement::small(&self.vehicle, way));
+        node.posture.follow(&self.vehicle, &posture, &Displacement::tiny(&self.vehicle, way));
         node.move_at(*rate);
         if self.base.turns_arm() {
-            *turn = turn.then(Turn::by_small(base.angular));
+            *turn = turn.then(Turn::by_tiny(base.angular));
         }
         let base = self.base_motion(node, state.momentum_in(*turn), node.arm);
         state.velocity = in_inertial_frame(*turn, base);
