@@ -173,14 +173,17 @@ impl<const N: usize> Dynamics<N> {
     }
 
     /// Rates of the flow, written to `k`.
-    #[inline]
+    #[inline(never)]
     pub(super) fn law(&self, k: &mut Flow, y: &Flow, node: &Node<N>, load: &Load, scene: &Scene<'_, N>) {
-        let v = self.base_velocity(y, self.arm_turn(y), node);
-        self.law_at(k, y, node, v, load, scene);
+        // The compiler writes it twice: with a model that it knows, it takes an eighth less instructions.
+        if self.base == BaseModel::Full {
+            self.written(k, y, node, self.base_velocity(y, uav_turn(y), node), load, scene);
+        } else {
+            self.law_at(k, y, node, self.base_velocity(y, Turn::NONE, node), load, scene);
+        }
     }
 
     /// Rates of the `flow` of a `situation`, for a base that moves as it did just before the present instant.
-    #[inline]
     pub(super) fn law_in(&self, situation: &Situation<N>, flow: &Flow, load: &Load, scene: &Scene<'_, N>) -> Flow {
         let mut k = Flow::zeros();
         self.law_at(&mut k, flow, &situation.node, situation.base(), load, scene);
@@ -188,8 +191,13 @@ impl<const N: usize> Dynamics<N> {
     }
 
     /// [`Dynamics::law`] for a base that moves with `v`, axes of the UAV frame.
-    #[inline]
+    #[inline(never)]
     fn law_at(&self, k: &mut Flow, y: &Flow, node: &Node<N>, v: Twist, load: &Load, scene: &Scene<'_, N>) {
+        self.written(k, y, node, v, load, scene);
+    }
+
+    #[inline(always)]
+    fn written(&self, k: &mut Flow, y: &Flow, node: &Node<N>, v: Twist, load: &Load, scene: &Scene<'_, N>) {
         let turn = self.arm_turn(y);
         let velocity = in_inertial_frame(turn, v);
         let mut control = self.control(y, &velocity, load, scene);
