@@ -16,6 +16,7 @@ use nalgebra::Vector3;
 
 pub use planner::Controller;
 pub use resolution::{PATH_THRESHOLD, Problem, PseudoInverse, Task};
+pub use response::Response;
 
 use crate::bytes::Memory;
 use crate::error::Result;

@@ -9,7 +9,7 @@ use crate::planar::{Turn, Vec2, perp};
 /// Linear answers to the rates in one configuration, axes of the UAV frame:
 /// v_ee = jacobian q_dot + end_effector_free (thesis 2.28).
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Response<const N: usize> {
+pub struct Response<const N: usize> {
     /// Generalized Jacobian: velocity of the end effector per rate \[m\].
     pub jacobian: SMatrix<f64, 2, N>,
     /// Velocity of the end effector without rates \[m/s\].
@@ -24,6 +24,7 @@ pub(super) struct Response<const N: usize> {
 impl<const N: usize> Response<N> {
     /// Answers of a system whose arm is at `node`, turned by `turn`, with this momentum in the axes of the UAV frame;
     /// `held`: of an arm whose last coordinate is kept at rest.
+    #[must_use]
     pub fn new(dynamics: &Dynamics<N>, node: &Node<N>, turn: Turn, momentum: Twist, held: bool) -> Self {
         // The compiler writes it twice: with models that it knows, it takes two thirds of the instructions.
         if dynamics.neglects_nothing() {
@@ -67,6 +68,7 @@ impl<const N: usize> Response<N> {
     }
 
     /// Angular momentum of what the UAV carries at the rates `rate` \[N m s\].
+    #[must_use]
     pub fn carried_momentum(&self, rate: &SVector<f64, N>) -> f64 {
         self.carried_free + self.carried.dot(rate)
     }

@@ -1,7 +1,8 @@
 //! Inverse kinematics of the free-floating arm, without limits, beside what Pinocchio offers for it: centroidal
 //! map, frame Jacobian, and the solution of the generalized Jacobian that follows from both.
 //!
-//! A step of the controller does more: it evaluates the path, predicts base and momentum, and watches limits.
+//! The library's functions for the same, from joint angles to rates, stand beside it. A step of the controller does more:
+//! it evaluates the path, predicts base and momentum, and watches limits.
 
 use std::ffi::c_int;
 use std::time::Instant;
@@ -9,9 +10,13 @@ use std::time::Instant;
 use fmu_build::coupling::Pair;
 use fmu_build::fmu::{Instance, Selection, Value};
 use libloading::Library;
-use uam::controller::{Inputs, Outputs};
+use uam::controller::{Inputs, Outputs, Problem, Response, Task};
+use uam::dynamics::{Dynamics, Node, State};
+use uam::kinematics::Posture;
+use uam::momentum::Twist;
 use uam::options::Choice;
-use uam::parameters::{Discretization, Resolution};
+use uam::parameters::{BaseModel, Discretization, PathAxes, Resolution};
+use uam::planar::{Turn, vec2};
 use uam::scenarios::default_parameters;
 use uam::{Parameters, Structure};
 
@@ -72,21 +77,61 @@ impl Pinocchio {
         }
         rates
     }
+}
 
-    /// By how much the end effector of the plant misses the wanted velocity with these rates \[m/s\].
-    fn error(&self, pair: &Pair) -> f64 {
-        let mut plant = pair.plant.instantiate("plant").unwrap();
-        for (i, rate) in self.solve(0.0, 1).into_iter().enumerate() {
-            plant.set_value(&format!("joint[{}].rate_command", i + 1), Value::Real(rate)).unwrap();
-        }
-        plant.initialize(0.0, 1.0).unwrap();
-        plant.do_step(0.0, 1e-8).unwrap();
-        let miss = ["end_effector.vx", "end_effector.vy"].into_iter().zip(WANTED).map(|(name, wanted)| {
-            let Value::Real(found) = plant.value(name).unwrap() else { panic!("{name} is a real number") };
-            (found - wanted).abs()
-        });
-        miss.fold(0.0, f64::max)
+/// The same by the library's own functions: generalized Jacobian from joint angles, and its solution.
+struct Ours {
+    dynamics: Dynamics<3>,
+    start: State<3>,
+}
+
+impl Ours {
+    fn new(parameters: &Parameters) -> Self {
+        let dynamics = Dynamics::new(Structure::DEFAULT, parameters, BaseModel::Full).unwrap();
+        Self { dynamics, start: dynamics.start(parameters).state }
     }
+
+    /// Like [`Pinocchio::solve`].
+    fn solve(&self, turn: f64, times: u32) -> [f64; 3] {
+        let (vehicle, mut q, mut sum) = (&self.dynamics.vehicle, self.start.position, self.start.rate);
+        let (target, reach) = (vec2(WANTED[0], WANTED[1]), vehicle.reach());
+        for _ in 0..times {
+            q.add_scalar_mut(turn);
+            let node = Node::new(vehicle, Posture::new(vehicle, &q), false, self.start.rate);
+            let response = Response::new(&self.dynamics, &node, Turn::NONE, Twist::ZERO, false);
+            let problem = Problem {
+                path: response.jacobian,
+                velocity: target - response.end_effector_free,
+                moment: Task { row: response.carried, value: 0.0 },
+            };
+            sum += problem.resolve(PathAxes::Both, false, reach).rate;
+        }
+        (sum / f64::from(times)).into()
+    }
+}
+
+/// By how much the end effector of the plant misses the wanted velocity with these rates \[m/s\].
+fn error(rates: [f64; 3], pair: &Pair) -> f64 {
+    let mut plant = pair.plant.instantiate("plant").unwrap();
+    for (i, rate) in rates.into_iter().enumerate() {
+        plant.set_value(&format!("joint[{}].rate_command", i + 1), Value::Real(rate)).unwrap();
+    }
+    plant.initialize(0.0, 1.0).unwrap();
+    plant.do_step(0.0, 1e-8).unwrap();
+    let miss = ["end_effector.vx", "end_effector.vy"].into_iter().zip(WANTED).map(|(name, wanted)| {
+        let Value::Real(found) = plant.value(name).unwrap() else { panic!("{name} is a real number") };
+        (found - wanted).abs()
+    });
+    miss.fold(0.0, f64::max)
+}
+
+/// Time of one solution \[s\].
+fn timed(solve: impl Fn(f64, u32) -> [f64; 3]) -> f64 {
+    fastest(TIMES, || {
+        let begin = Instant::now();
+        std::hint::black_box(solve(TURN, STEPS));
+        begin.elapsed().as_secs_f64() / f64::from(STEPS)
+    })
 }
 
 fn parameters() -> Parameters {
@@ -128,23 +173,25 @@ pub fn contest(pair: &Pair) -> Contest<'static> {
     let parameters = parameters();
     let pinocchio = Pinocchio::open(&parameters);
     let mut instance = pair.controller.instantiate("controller").unwrap();
+    let ours = Ours::new(&parameters);
     let mut candidates = vec![
+        Candidate::new(
+            "Jacobian and solution alone, as a Rust library",
+            Some(error(ours.solve(0.0, 1), pair)),
+            move || timed(|turn, times| ours.solve(turn, times)),
+        ),
+        Candidate::new("controller as a Rust library", None, move || fastest(TIMES, || by_library(&parameters))),
         Candidate::new("controller FMU through C", None, move || {
             fastest(TIMES, || {
                 choose(&mut instance, Discretization::Euler, Resolution::MinimumNorm);
                 by_fmu(&mut instance)
             })
         }),
-        Candidate::new("controller as a Rust library", None, move || fastest(TIMES, || by_library(&parameters))),
     ];
     if let Some(pinocchio) = pinocchio {
-        let error = pinocchio.error(pair);
+        let error = error(pinocchio.solve(0.0, 1), pair);
         candidates.push(Candidate::new("Pinocchio, ccrba + frame Jacobian + solve", Some(error), move || {
-            fastest(TIMES, || {
-                let begin = Instant::now();
-                std::hint::black_box(pinocchio.solve(TURN, STEPS));
-                begin.elapsed().as_secs_f64() / f64::from(STEPS)
-            })
+            timed(|turn, times| pinocchio.solve(turn, times))
         }));
     }
     Contest { title: "Inverse kinematics, 3 links, minimum norm, euler, no limits", candidates }
