@@ -56,7 +56,7 @@ pub struct Controller<const N: usize> {
     planned_end: Box<Prediction<N>>,
     untouched: bool,
     /// The end of the planned interval, and the wanted motion there if it does not depend on inputs: to be worked
-    /// out once, which spares an eighth of a step with `exact`.
+    /// out once.
     foreseen: (f64, Target),
 }
 
