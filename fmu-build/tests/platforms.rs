@@ -181,31 +181,24 @@ fn linux64_runs_with_old_systems() {
     }
 }
 
-/// Debian has the program in the package `wine64` or `wine`.
-fn wine() -> Option<PathBuf> {
+/// Where the first of some programs that is there stands; Debian's `wine64` is in a folder of its own.
+fn program(names: &[&str]) -> Option<PathBuf> {
     let folders = env::split_paths(&env::var_os("PATH").unwrap_or_default()).collect::<Vec<_>>();
-    let programs = folders.into_iter().chain([PathBuf::from("/usr/lib/wine")]);
-    programs.flat_map(|folder| [folder.join("wine"), folder.join("wine64")]).find(|program| program.is_file())
+    let folders = folders.into_iter().chain([PathBuf::from("/usr/lib/wine")]);
+    folders.flat_map(|folder| names.iter().map(move |name| folder.join(name))).find(|program| program.is_file())
 }
 
-#[test]
-fn win64_runs_under_wine_and_agrees() {
-    let target = &TARGETS[1];
-    if !wanted(target) {
-        return;
-    }
-    let built_for_windows = built(target);
-    check(&built_for_windows, target, &[Architecture::X86_64], OF_WINDOWS);
-    let Some(wine) = wine() else {
-        println!("skipped: running win64, there is no wine");
-        return;
-    };
+/// Runs both units in a host for their platform, and compares where they end with where this machine's own do.
+///
+/// `compiler` makes programs for the platform; `emulator` gives the start of a command that runs one here, and may
+/// store what it needs in the folder that it is told.
+fn assert_agrees(built: &Built, target: &Target, mut compiler: Command, emulator: impl Fn(&Path) -> Command) {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name);
-    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/windows/host.c");
-    let compiler = ["-std=c11", "-Wall", "-Wextra", "-Wno-cast-function-type", "-Werror", "-o"];
-    let compiled =
-        Command::new("x86_64-w64-mingw32-gcc").args(compiler).args([path("host.exe"), source]).status().unwrap();
+    let unit = path("unit").with_extension(target.platform.extension);
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/platforms/host.c");
+    let warnings = ["-std=c11", "-Wall", "-Wextra", "-Wno-cast-function-type", "-Werror"];
+    let compiled = compiler.args(warnings).arg(source).arg("-o").arg(path("host.exe")).status().unwrap();
     assert!(compiled.success());
     let own = build(&BuildOptions::new(Structure::DEFAULT, path("own")), &|_| ()).unwrap();
     let own = Pair::open(&own.controller, &own.plant).unwrap();
@@ -214,14 +207,12 @@ fn win64_runs_under_wine_and_agrees() {
         let interface = (trial.unit)(Structure::DEFAULT).interface;
         let reference =
             |name: &str| interface.variables.iter().position(|variable| variable.name == name).unwrap().to_string();
-        fs::write(path("unit.dll"), library((trial.file)(&built_for_windows), target)).unwrap();
-        let output = Command::new(&wine)
+        fs::write(&unit, library((trial.file)(built), target)).unwrap();
+        let output = emulator(folder.path())
             .arg(path("host.exe"))
-            .arg(path("unit.dll"))
+            .arg(&unit)
             .args([&interface.guid, &reference(trial.input)])
             .args(trial.outputs.map(reference))
-            .env("WINEPREFIX", path("wine"))
-            .env("WINEDEBUG", "-all")
             .output()
             .unwrap();
         let (out, err) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
@@ -234,9 +225,30 @@ fn win64_runs_under_wine_and_agrees() {
         assert!(here.iter().any(|value| value.abs() > 1e-3), "it moves: {here:?}");
         for ((name, here), there) in trial.outputs.iter().zip(&here).zip(&there) {
             // The mathematical functions of another system round differently.
-            assert!((here - there).abs() < 1e-9, "{name}: {here} here, {there} on Windows");
+            let platform = target.platform.folder;
+            assert!((here - there).abs() < 1e-9, "{name}: {here} here, {there} on {platform}");
         }
     }
+}
+
+#[test]
+fn win64_runs_under_wine_and_agrees() {
+    let target = &TARGETS[1];
+    if !wanted(target) {
+        return;
+    }
+    let built = built(target);
+    check(&built, target, &[Architecture::X86_64], OF_WINDOWS);
+    // Debian has it in the package `wine64` or `wine`.
+    let Some(wine) = program(&["wine", "wine64"]) else {
+        println!("skipped: running win64, there is no wine");
+        return;
+    };
+    assert_agrees(&built, target, Command::new("x86_64-w64-mingw32-gcc"), |folder| {
+        let mut command = Command::new(&wine);
+        command.env("WINEPREFIX", folder.join("wine")).env("WINEDEBUG", "-all");
+        command
+    });
 }
 
 #[test]
@@ -270,11 +282,24 @@ fn darwin64_holds_both_processors() {
 }
 
 #[test]
-fn aarch64_linux_stands_where_importers_look() {
+fn aarch64_linux_runs_under_qemu_and_agrees() {
     let target = &TARGETS[3];
     if !wanted(target) {
         return;
     }
     let built = built(target);
     check(&built, target, &[Architecture::Aarch64], OF_LINUX);
+    // Debian has them in the packages `qemu-user` and `libc6-arm64-cross`.
+    let system = Path::new("/usr/aarch64-linux-gnu");
+    let Some(qemu) = program(&["qemu-aarch64"]).filter(|_| system.is_dir()) else {
+        println!("skipped: running aarch64-linux, there is no qemu-aarch64 or no {}", system.display());
+        return;
+    };
+    let mut compiler = Command::new("cargo-zigbuild");
+    compiler.args(["zig", "cc", "--", "-target", "aarch64-linux-gnu.2.17", "-ldl"]);
+    assert_agrees(&built, target, compiler, |_| {
+        let mut command = Command::new(&qemu);
+        command.arg("-L").arg(system);
+        command
+    });
 }

@@ -1,11 +1,42 @@
-/* A host for Windows: one second of a unit with its first joint moving, then some of its values.
+/* A host for Windows and Linux: one second of a unit with its first joint moving, then some of its values.
  *
- *     host.exe LIBRARY GUID INPUT OUTPUT...      (value references)
+ *     host LIBRARY GUID INPUT OUTPUT...      (value references)
  */
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
+
+typedef void (*function)(void);
+
+#ifdef _WIN32
 #include <windows.h>
+
+typedef HMODULE library;
+
+static library load(const char *file) {
+    library loaded = LoadLibraryA(file);
+    if (!loaded) fprintf(stderr, "cannot load the library: error %lu\n", GetLastError());
+    return loaded;
+}
+
+static function find(library loaded, const char *name) {
+    return (function)GetProcAddress(loaded, name);
+}
+#else
+#include <dlfcn.h>
+
+typedef void *library;
+
+static library load(const char *file) {
+    library loaded = dlopen(file, RTLD_NOW | RTLD_LOCAL);
+    if (!loaded) fprintf(stderr, "cannot load the library: %s\n", dlerror());
+    return loaded;
+}
+
+static function find(library loaded, const char *name) {
+    return (function)dlsym(loaded, name);
+}
+#endif
 
 typedef void *component;
 
@@ -27,8 +58,8 @@ static const struct {
     void *environment;
 } callbacks = {say, calloc, free, NULL, NULL};
 
-static FARPROC function(HMODULE library, const char *name) {
-    FARPROC found = GetProcAddress(library, name);
+static function function_of(library loaded, const char *name) {
+    function found = find(loaded, name);
     if (!found) {
         fprintf(stderr, "there is no %s\n", name);
         exit(2);
@@ -36,16 +67,13 @@ static FARPROC function(HMODULE library, const char *name) {
     return found;
 }
 
-#define CALL(result, name, types) ((result(*) types)function(library, name))
+#define CALL(result, name, types) ((result(*) types)function_of(loaded, name))
 
 int main(int count, char **arguments) {
-    HMODULE library = count > 4 ? LoadLibraryA(arguments[1]) : NULL;
-    if (!library) {
-        fprintf(stderr, "cannot load the library: error %lu\n", GetLastError());
-        return 2;
-    }
+    library loaded = count > 4 ? load(arguments[1]) : NULL;
+    if (!loaded) return 2;
     component c = CALL(component, "fmi2Instantiate", (const char *, int, const char *, const char *, const void *, int, int))(
-        "windows", 1, arguments[2], "", &callbacks, 0, 1);
+        "unit", 1, arguments[2], "", &callbacks, 0, 1);
     if (!c) return 1;
 
     int status = CALL(int, "fmi2SetupExperiment", (component, int, double, double, int, double))(c, 0, 0.0, 0.0, 0, 0.0);
