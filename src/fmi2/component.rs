@@ -79,15 +79,18 @@ pub unsafe fn call<M: Model>(
 ) -> Status {
     // SAFETY: promised by the caller.
     let Some(this) = (unsafe { Component::<M>::find(handle) }) else { return Status::Error };
-    // SAFETY: alive, and only this call uses the instance until `body` returns.
-    let outcome = panics::caught(|| body(unsafe { &mut (*this).instance }));
-    let result = outcome.unwrap_or_else(|message| {
+    // SAFETY: alive; loggers change in `switch_logging` only.
+    let logger = unsafe { &(*this).logger };
+    // What comes out is a status, not an error: that is long, and most calls have none.
+    let outcome = panics::caught(|| {
+        // SAFETY: alive, and only this call uses the instance until `body` returns.
+        conclude(logger, call, body(unsafe { &mut (*this).instance }))
+    });
+    outcome.unwrap_or_else(|message| {
         // SAFETY: as above.
         unsafe { &mut (*this).instance }.fail();
-        Err(Error::Panic(message))
-    });
-    // SAFETY: alive; loggers change in `switch_logging` only.
-    conclude(unsafe { &(*this).logger }, call, &result)
+        refuse(logger, call, Error::Panic(message))
+    })
 }
 
 /// Like [`call`], and the host hears of a success in the category of events.
@@ -125,21 +128,24 @@ pub unsafe fn switch_logging<M: Model>(handle: Handle, body: impl FnOnce(&mut Lo
     let Some(this) = (unsafe { Component::<M>::find(handle) }) else { return Status::Error };
     // SAFETY: alive, and only this call uses the logger until `body` returns.
     let outcome = panics::caught(|| body(unsafe { &mut (*this).logger }));
-    let result = outcome.unwrap_or_else(|message| Err(Error::Panic(message)));
     // SAFETY: alive.
-    conclude(unsafe { &(*this).logger }, Call::SetDebugLogging, &result)
+    let logger = unsafe { &(*this).logger };
+    conclude(logger, Call::SetDebugLogging, outcome.map_err(Error::Panic).flatten())
 }
 
 #[inline]
-fn conclude(logger: &Logger, call: Call, result: &Result<(), Error>) -> Status {
+fn conclude(logger: &Logger, call: Call, result: Result<(), Error>) -> Status {
     match result {
         Ok(()) => Status::Ok,
         Err(error) => refuse(logger, call, error),
     }
 }
 
+/// Takes the error along, so that its end is written once.
 #[cold]
-fn refuse(logger: &Logger, call: Call, error: &Error) -> Status {
+#[inline(never)]
+#[allow(clippy::needless_pass_by_value)]
+fn refuse(logger: &Logger, call: Call, error: Error) -> Status {
     logger.log(Category::StatusError, format_args!("{call}: {error}"));
     Status::Error
 }
