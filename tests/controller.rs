@@ -248,3 +248,24 @@ fn the_first_interval_is_planned_at_once() {
     let still = start(&with(|p| p.reference.legs.iter_mut().for_each(|leg| leg.duration = 0.0)));
     assert!(still.rate_command.iter().all(|rate| rate.abs() < 1e-6), "{:?}", still.rate_command);
 }
+
+/// Rates that jump where a hasty path meets limits, and where the payload is grasped, do not lead the plans after them astray.
+#[test]
+fn plans_hold_after_rates_that_jumped() {
+    let hasty = with(|p| {
+        p.ik.resolution = Resolution::LeastSquares;
+        p.payload.grasp_time = 0.35;
+        let leg = &mut p.reference.legs[0];
+        (leg.start, leg.duration, leg.ramp) = (0.0, 0.4, 0.05);
+    });
+    let mut coupling = Coupling::new(DEFAULT, &hasty);
+    let mut seen = Vec::new();
+    for n in 0..150 {
+        coupling.step(0.01);
+        let c = &coupling.commands;
+        assert!(c.status != Status::Inexact, "{n}");
+        assert!(c.status != Status::Ok || c.velocity_residual <= 1e-8, "{n}: {:e}", c.velocity_residual);
+        seen.push(c.status);
+    }
+    assert!(seen.contains(&Status::TaskLimited), "limits bind");
+}

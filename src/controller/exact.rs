@@ -32,6 +32,9 @@ pub(super) const INEXACT: f64 = 1e-6;
 /// Moment impulses on the UAV below this are none \[N m s\].
 const NO_IMPULSE: f64 = 1e-12;
 
+/// Plans of which a polynomial leaves at most this share of the change from the one before unforeseen follow a smooth path.
+const SMOOTH: f64 = 0.1;
+
 impl<const N: usize> Outset<N> {
     /// The motion in the interval of length `horizon` from time `t` at whose end the end effector is on the `target`, as
     /// near as the iteration gets: at its place, with a hold of first order with its velocity, too, and if
@@ -42,7 +45,7 @@ impl<const N: usize> Outset<N> {
     pub fn plan_exact(&self, t: f64, horizon: f64, target: &Target, end: &mut Prediction<N>) -> Result<Plan<N>> {
         let accelerates = self.resolver.accelerates();
         let ramped = accelerates || self.hold == Hold::FirstOrder;
-        let mut plan = Plan { places: self.places, ..Plan::moving(self.go_on()) };
+        let mut plan = Plan { places: self.places, ..Plan::moving(self.go_on(horizon)) };
         let mut left_over = 0.0;
         let mut nearest: Option<(f64, Plan<N>)> = None;
         for iteration in 0..=ITERATIONS {
@@ -81,11 +84,10 @@ impl<const N: usize> Outset<N> {
                 Motion::constant(resolved.rate)
             };
             let change = motion - plan.motion;
-            let (way, last) = (change.way(horizon), change.rate_after(horizon));
             plan = Plan::of(&resolved, motion);
-            if (way.norm() + last.norm() * horizon) * self.resolver.reach <= ON_REFERENCE {
+            if extent(&change, horizon) * self.resolver.reach <= ON_REFERENCE {
                 // So little is linear. Where the path is given up in part, it also says when nothing changes any more.
-                self.dynamics.displace(&mut end.situation, &way, &motion.rate_after(horizon));
+                self.dynamics.displace(&mut end.situation, &change.way(horizon), &motion.rate_after(horizon));
                 self.weigh(&mut plan, impulse, horizon, end);
                 return Ok(plan);
             }
@@ -100,14 +102,26 @@ impl<const N: usize> Outset<N> {
         Ok(plan)
     }
 
-    /// The motion that goes on changing as it did, along a polynomial of order 4: so close that the interval need not be
-    /// integrated again where the path is smooth.
-    fn go_on(&self) -> Motion<N> {
-        let [first, second, third, fourth, fifth] = &self.before;
-        let next = |of: fn(&Motion<N>) -> &SVector<f64, N>| {
-            (of(first) - of(fourth)) * 5.0 + (of(third) - of(second)) * 10.0 + of(fifth)
+    /// The first motion in question for an interval of length `horizon`. It goes on changing as it did, along a polynomial
+    /// of order 4: so close that the interval need not be integrated again where the path is smooth.
+    ///
+    /// Where such a polynomial would not have foreseen the last plan, for the wanted motion jumps or intervals differ in
+    /// length, it would be so far off that the iteration might not end: there the last motion goes on.
+    fn go_on(&self, horizon: f64) -> Motion<N> {
+        let combined = |weights: [f64; 5]| {
+            let mut sum = Motion::constant(SVector::zeros());
+            for (motion, weight) in self.before.iter().zip(weights) {
+                sum.rate += motion.rate * weight;
+                sum.slope += motion.slope * weight;
+            }
+            sum
         };
-        Motion { rate: next(|motion| &motion.rate), slope: next(|motion| &motion.slope) }
+        let (change, unforeseen) = (combined([1.0, -1.0, 0.0, 0.0, 0.0]), combined([1.0, -4.0, 6.0, -4.0, 1.0]));
+        if extent(&unforeseen, horizon) < SMOOTH * extent(&change, horizon) {
+            combined([5.0, -10.0, 10.0, -5.0, 1.0])
+        } else {
+            self.motion
+        }
     }
 
     /// How far the end effector is from the `target` at the `end` of the interval of length `horizon`, or will be at
@@ -152,4 +166,10 @@ impl<const N: usize> Outset<N> {
         let first = self.resolver.within_limits(mean * 2.0 - last);
         Motion { rate: first, slope: (last - first) / horizon }
     }
+}
+
+/// How much the `change` of a motion changes in an interval of length `horizon`: its way, and the last rates times the
+/// interval \[rad, m\].
+fn extent<const N: usize>(change: &Motion<N>, horizon: f64) -> f64 {
+    change.way(horizon).norm() + change.rate_after(horizon).norm() * horizon
 }
