@@ -18,7 +18,7 @@ use crate::{files, universal};
 const PROFILE: &str = "fmu";
 /// Less is copied into its callers than usual (225), which keeps the controller's library below a megabyte. Loops over a
 /// few links gain no time from vectors of their own, and unrolled they are longer: 6 kB.
-const SMALL: &str = "-Cllvm-args=-inline-threshold=45 -vectorize-loops=false -unroll-threshold=125";
+const SMALL: &str = "-Cllvm-args=-inline-threshold=36 -vectorize-loops=false -unroll-threshold=125";
 /// Separates the flags in `CARGO_ENCODED_RUSTFLAGS`.
 const FLAG_SEPARATOR: &str = "\u{1f}";
 

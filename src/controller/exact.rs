@@ -108,20 +108,24 @@ impl<const N: usize> Outset<N> {
     /// Where such a polynomial would not have foreseen the last plan, for the wanted motion jumps or intervals differ in
     /// length, it would be so far off that the iteration might not end: there the last motion goes on.
     fn go_on(&self, horizon: f64) -> Motion<N> {
-        let combined = |weights: [f64; 5]| {
-            let mut sum = Motion::constant(SVector::zeros());
-            for (motion, weight) in self.before.iter().zip(weights) {
-                sum.rate += motion.rate * weight;
-                sum.slope += motion.slope * weight;
-            }
-            sum
-        };
-        let (change, unforeseen) = (combined([1.0, -1.0, 0.0, 0.0, 0.0]), combined([1.0, -4.0, 6.0, -4.0, 1.0]));
+        let change = self.combined([1.0, -1.0, 0.0, 0.0, 0.0]);
+        let unforeseen = self.combined([1.0, -4.0, 6.0, -4.0, 1.0]);
         if extent(&unforeseen, horizon) < SMOOTH * extent(&change, horizon) {
-            combined([5.0, -10.0, 10.0, -5.0, 1.0])
+            self.combined([5.0, -10.0, 10.0, -5.0, 1.0])
         } else {
             self.motion
         }
+    }
+
+    /// The sum of the past motions with these weights, the last one first.
+    #[inline(never)]
+    fn combined(&self, weights: [f64; 5]) -> Motion<N> {
+        let mut sum = Motion::constant(SVector::zeros());
+        for (motion, weight) in self.before.iter().zip(weights) {
+            sum.rate += motion.rate * weight;
+            sum.slope += motion.slope * weight;
+        }
+        sum
     }
 
     /// How far the end effector is from the `target` at the `end` of the interval of length `horizon`, or will be at
@@ -170,6 +174,7 @@ impl<const N: usize> Outset<N> {
 
 /// How much the `change` of a motion changes in an interval of length `horizon`: its way, and the last rates times the
 /// interval \[rad, m\].
+#[inline(never)]
 fn extent<const N: usize>(change: &Motion<N>, horizon: f64) -> f64 {
     change.way(horizon).norm() + change.rate_after(horizon).norm() * horizon
 }
