@@ -19,6 +19,7 @@ pub use resolution::{PATH_THRESHOLD, Problem, PseudoInverse, Task};
 pub use response::Response;
 
 use crate::bytes::Memory;
+use crate::dynamics::check_finite;
 use crate::error::Result;
 use crate::for_coordinates;
 use crate::options;
@@ -88,6 +89,32 @@ pub struct Outputs {
     pub velocity_residual: f64,
     /// Predicted mean moment on the UAV under these rates \[N m\].
     pub moment_residual: f64,
+}
+
+impl Outputs {
+    /// Whether what follows from a finite state and plan is finite, too: huge parameters and inputs overflow there first.
+    ///
+    /// # Errors
+    /// Names the first quantity that is not, at `time` \[s\].
+    pub fn check(&self, time: f64) -> Result<()> {
+        let Self { rate_command, acceleration_command, reference, reference_velocity, predicted_end_effector, .. } =
+            self;
+        let places = reference + reference_velocity + predicted_end_effector;
+        let commands: f64 = rate_command.iter().zip(acceleration_command).map(|(rate, slope)| rate + slope).sum();
+        if (places.sum() + commands).is_finite() {
+            return Ok(());
+        }
+        check_finite(
+            &[
+                ("rate command", rate_command),
+                ("acceleration command", acceleration_command),
+                ("reference", reference.as_slice()),
+                ("velocity of the reference", reference_velocity.as_slice()),
+                ("predicted position of the end effector", predicted_end_effector.as_slice()),
+            ],
+            time,
+        )
+    }
 }
 
 /// How fast outputs change whose rate is no output itself; predictions: left limits.

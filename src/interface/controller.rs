@@ -82,11 +82,16 @@ impl Model for ControllerUnit {
     }
 
     fn initialize(structure: Structure, data: &mut Data, _start_time: f64) -> Result<Self, Error> {
-        Ok(Self(controller::new(structure, &data.parameters, &mut data.outputs)?))
+        let planner = controller::new(structure, &data.parameters, &mut data.outputs)?;
+        data.outputs.check(0.0)?;
+        Ok(Self(planner))
     }
 
     fn step(&mut self, data: &mut Data, step: CommunicationStep) -> Result<(), Error> {
-        self.0.step(&data.parameters, &data.inputs, step.from - step.start_time, step.size, &mut data.outputs)
+        let t = step.from - step.start_time;
+        self.0.step(&data.parameters, &data.inputs, t, step.size, &mut data.outputs)?;
+        // A failure leaves nothing that is not finite.
+        data.outputs.check(t + step.size).inspect_err(|_| data.outputs = Outputs::default())
     }
 
     fn differentiate(&self, data: &mut Data, elapsed: f64) {
@@ -319,4 +324,26 @@ fn declare_outputs(table: &mut Table<Data>, structure: Structure) {
             "Predicted mean moment of all that the UAV carries on the UAV under the present rates",
             |d, _| &mut d.outputs.moment_residual,
         );
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::reference::Leg;
+
+    /// A path that is faster than any number can say, and begins where no plan is due: each value of it is within bounds.
+    #[test]
+    fn outputs_that_overflow_are_an_error_and_are_not_handed_out() {
+        let mut data = ControllerUnit::start(Structure::DEFAULT);
+        data.parameters.ik.sample_time = 1.0;
+        data.parameters.reference.legs = [Leg::NONE; _];
+        data.parameters.reference.legs[0] = Leg { start: 0.01, duration: 0.1, ramp: 0.03, dx: 1e308, ..Leg::NONE };
+        data.parameters.reference.legs[1] = Leg { dx: -1e308, ..data.parameters.reference.legs[0] };
+        data.parameters.reference.legs[1].start = 0.5;
+        let mut controller = ControllerUnit::initialize(Structure::DEFAULT, &mut data, 0.0).unwrap();
+        let step = |n: i32| CommunicationStep { start_time: 0.0, from: f64::from(n) * 1e-2, size: 1e-2 };
+        let error = (0..20).find_map(|n| controller.step(&mut data, step(n)).err()).unwrap().to_string();
+        assert!(error.contains("velocity of the reference"), "{error}");
+        data.outputs.check(0.0).unwrap();
+    }
 }
