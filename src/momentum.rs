@@ -75,8 +75,6 @@ pub struct MomentumMatrix<const N: usize> {
     pub first: Vec2,
     /// Columns of H_m.
     pub columns: [Twist; N],
-    /// First moment of what lies outboard of each joint, a balance element's included, about it \[kg m\].
-    pub outboard_first: [Vec2; N],
     /// Centre of mass of the whole system \[m\].
     pub center: Vec2,
     /// Inverse mass of the whole system \[1/kg\].
@@ -87,7 +85,7 @@ pub struct MomentumMatrix<const N: usize> {
     inertia: f64,
 }
 
-memory!(MomentumMatrix<N> { mass, first, columns, outboard_first, center, lightness, compliance, inertia });
+memory!(MomentumMatrix<N> { mass, first, columns, center, lightness, compliance, inertia });
 
 impl<const N: usize> MomentumMatrix<N> {
     /// Nothing has been summed up yet.
@@ -95,7 +93,6 @@ impl<const N: usize> MomentumMatrix<N> {
         mass: 0.0,
         first: vec2(0.0, 0.0),
         columns: [Twist::ZERO; N],
-        outboard_first: [vec2(0.0, 0.0); N],
         center: vec2(0.0, 0.0),
         lightness: 0.0,
         compliance: 0.0,
@@ -120,7 +117,6 @@ impl<const N: usize> MomentumMatrix<N> {
             let (body, direction) = (&masses.augmented[i], posture.direction[i]);
             inertia += body.second + 2.0 * vehicle.length[i] * direction.dot(&first);
             first += direction * body.first;
-            self.outboard_first[i] = first;
             self.columns[i] = Twist { linear: perp(first), angular: posture.joint[i].dot(&first) + inertia };
         }
         let arm = masses.augmented[0].mass;
@@ -138,7 +134,6 @@ impl<const N: usize> MomentumMatrix<N> {
                 let own = posture.direction[N - 1] * body.first;
                 inertia += body.second;
                 first += own;
-                self.outboard_first[N - 1] = own;
                 self.columns[N - 1] = Twist { linear: perp(own), angular: body.second };
             }
         }
@@ -150,7 +145,14 @@ impl<const N: usize> MomentumMatrix<N> {
         self.compliance = 1.0 / (inertia - first.dot(&self.center));
     }
 
+    /// First moment about joint `i` of what lies outboard of it \[kg m\]; of a balance element likewise.
+    #[must_use]
+    pub fn outboard_first(&self, i: usize) -> Vec2 {
+        -perp(self.columns[i].linear)
+    }
+
     /// H_m q_dot: momentum from the rates alone.
+    #[inline]
     #[must_use]
     pub fn of_rates(&self, rate: &SVector<f64, N>) -> Twist {
         self.columns.iter().zip(rate.iter()).fold(Twist::ZERO, |sum, (column, rate)| sum + *column * *rate)

@@ -53,27 +53,39 @@ impl Leg {
     /// Share of the way (0 to 1), its rate \[1/s\] and its second derivative \[1/s2\] at time `t` \[s\].
     #[must_use]
     pub fn progress(&self, t: f64) -> [f64; 3] {
-        self.begun(t).unwrap_or_default()
-    }
-
-    /// The same; none before it begins.
-    #[inline]
-    fn begun(&self, t: f64) -> Option<[f64; 3]> {
         let elapsed = t - self.start;
         if elapsed <= 0.0 || self.duration == 0.0 {
-            return None;
+            return [0.0; 3];
         }
         let left = self.duration - elapsed;
         if left <= 0.0 {
-            return Some([1.0, 0.0, 0.0]);
+            return [1.0, 0.0, 0.0];
         }
         let cruise = 1.0 / (self.duration - self.ramp);
         let nearer = if elapsed < left { elapsed } else { left };
         if nearer >= self.ramp {
-            return Some([cruise * (elapsed - 0.5 * self.ramp), cruise, 0.0]);
+            return [cruise * (elapsed - 0.5 * self.ramp), cruise, 0.0];
         }
         let [way, rate, acceleration] = self.profile.ramp(nearer, self.ramp).map(|value| cruise * value);
-        Some(if elapsed < left { [way, rate, acceleration] } else { [1.0 - way, rate, -acceleration] })
+        if elapsed < left { [way, rate, acceleration] } else { [1.0 - way, rate, -acceleration] }
+    }
+
+    /// Adds its motion at time `t` \[s\] to `target`.
+    #[inline]
+    fn add(&self, t: f64, target: &mut Target) {
+        let (way, elapsed) = (vec2(self.dx, self.dy), t - self.start);
+        if elapsed <= 0.0 || self.duration == 0.0 {
+            return;
+        }
+        // Most of a run comes after most legs.
+        if elapsed >= self.duration {
+            target.displacement += way;
+            return;
+        }
+        let [share, rate, acceleration] = self.progress(t);
+        target.displacement += way * share;
+        target.velocity += way * rate;
+        target.acceleration += way * acceleration;
     }
 }
 
@@ -162,16 +174,16 @@ impl Reference {
     /// The wanted motion at time `t` \[s\] from the start; at rest for [`ReferenceKind::External`].
     #[must_use]
     pub fn at(&self, t: f64) -> Target {
-        let mut target = Target::AT_REST;
+        self.begun_at(Vec2::zeros(), t)
+    }
+
+    /// [`Reference::at`], with displacements from the place that is at -`start`.
+    #[must_use]
+    pub fn begun_at(&self, start: Vec2, t: f64) -> Target {
+        let mut target = Target { displacement: start, ..Target::AT_REST };
         match self.kind {
             ReferenceKind::Path => {
-                for leg in &self.legs {
-                    let Some([share, rate, acceleration]) = leg.begun(t) else { continue };
-                    let way = vec2(leg.dx, leg.dy);
-                    target.displacement += way * share;
-                    target.velocity += way * rate;
-                    target.acceleration += way * acceleration;
-                }
+                self.legs.iter().for_each(|leg| leg.add(t, &mut target));
             }
             ReferenceKind::Circle => {
                 let turn = std::f64::consts::TAU;
@@ -180,7 +192,7 @@ impl Reference {
                 let radius = 0.5 * self.circle.diameter;
                 let (sin_0, cos_0) = self.circle.start_angle.sin_cos();
                 let (sin, cos) = (self.circle.start_angle + angle).sin_cos();
-                target.displacement = radius * vec2(cos - cos_0, sin - sin_0);
+                target.displacement += radius * vec2(cos - cos_0, sin - sin_0);
                 target.velocity = radius * rate * vec2(-sin, cos);
                 target.acceleration = radius * (acceleration * vec2(-sin, cos) - rate * rate * vec2(cos, sin));
             }

@@ -176,9 +176,7 @@ impl<const N: usize> Controller<N> {
         if *end == t + ahead {
             return *target;
         }
-        let mut target = self.reference.at(t + ahead);
-        target.displacement += self.origin;
-        target
+        self.reference.begun_at(self.origin, t + ahead)
     }
 
     /// Advances the prediction by `size` \[s\] at the rates sent; `tuned`: by other laws than were planned with.

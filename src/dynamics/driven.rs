@@ -16,6 +16,7 @@ mod elimination;
 
 use nalgebra::{SMatrix, SVector};
 
+use super::law::Flow;
 use super::{Dynamics, Load, Node, Situation};
 use crate::bytes::{Memory, Tape};
 use crate::error::{Error, Result};
@@ -176,7 +177,8 @@ impl<const N: usize> Dynamics<N> {
         let Situation { state, node, .. } = situation;
         let (vehicle, posture, roll_rate) = (&self.vehicle, &node.posture, state.velocity.z);
         let (flow, scene) = (situation.flow(self.base), Self::scene(&situation.state));
-        let rate = self.law_in(situation, &flow, load, &scene);
+        let mut rate = Flow::zeros();
+        self.law_at(&mut rate, &flow, node, situation.base(), load, &scene);
         let base = self.base_acceleration(situation, self.loads_at_end(situation, &rate), imposed);
 
         let drift = outboard_drift(vehicle, posture, state.held, situation.base(), &node.rate);
@@ -190,6 +192,6 @@ impl<const N: usize> Node<N> {
     /// Angular momentum about joint `i` per rate of joint `j`, on a base at rest \[kg m2\].
     fn inertia(&self, i: usize, j: usize) -> f64 {
         let (inner, outer) = (i.min(j), i.max(j));
-        self.matrix.columns[outer].angular - self.posture.joint[inner].dot(&self.matrix.outboard_first[outer])
+        self.matrix.columns[outer].angular - self.posture.joint[inner].dot(&self.matrix.outboard_first(outer))
     }
 }

@@ -4,6 +4,7 @@
 use nalgebra::{SVector, Vector3};
 
 use super::advance::refreshed;
+use super::law::Flow;
 use super::{Dynamics, Loads, Situation, State, in_inertial_frame};
 use crate::kinematics::Displacement;
 use crate::momentum::Twist;
@@ -22,7 +23,8 @@ impl<const N: usize> Dynamics<N> {
         let flow = here.flow(self.base);
         state.contact = self.touches(&flow, node, state.held);
         let scene = Self::scene(state);
-        let rate = self.law_in(here, &flow, load, &scene);
+        let mut rate = Flow::zeros();
+        self.law_at(&mut rate, &flow, node, here.base(), load, &scene);
         state.momentum += Vector3::new(rate[3], rate[4], rate[5]) * size;
         state.integrals += vec2(rate[6], rate[7]) * size;
         self.carried_load(node, &self.carrier(&flow, &rate), load) * size

@@ -37,7 +37,8 @@ impl<const N: usize> Dynamics<N> {
         let state = &situation.state;
         let flow = situation.flow(self.base);
         let scene = Self::scene(state);
-        let rate = self.law_in(situation, &flow, load, &scene);
+        let mut rate = Flow::zeros();
+        self.law_at(&mut rate, &flow, &situation.node, situation.base(), load, &scene);
         let thrust = self.control(&flow, &state.velocity, load, &scene).x;
         let base = self.base_acceleration(situation, self.loads_at_end(situation, &rate), slope);
         let acceleration = in_inertial_frame(situation.turn, base);

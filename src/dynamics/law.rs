@@ -183,16 +183,9 @@ impl<const N: usize> Dynamics<N> {
         }
     }
 
-    /// Rates of the `flow` of a `situation`, for a base that moves as it did just before the present instant.
-    pub(super) fn law_in(&self, situation: &Situation<N>, flow: &Flow, load: &Load, scene: &Scene<'_, N>) -> Flow {
-        let mut k = Flow::zeros();
-        self.law_at(&mut k, flow, &situation.node, situation.base(), load, scene);
-        k
-    }
-
     /// [`Dynamics::law`] for a base that moves with `v`, axes of the UAV frame.
     #[inline(never)]
-    fn law_at(&self, k: &mut Flow, y: &Flow, node: &Node<N>, v: Twist, load: &Load, scene: &Scene<'_, N>) {
+    pub(super) fn law_at(&self, k: &mut Flow, y: &Flow, node: &Node<N>, v: Twist, load: &Load, scene: &Scene<'_, N>) {
         self.written(k, y, node, v, load, scene);
     }
 

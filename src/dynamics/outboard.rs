@@ -18,8 +18,8 @@ impl<const N: usize> Dynamics<N> {
 
         let drift = sum[N - 1];
         let gravity = turn.undo(vec2(0.0, -vehicle.gravity));
-        for (sum, first) in sum.iter_mut().zip(&node.matrix.outboard_first) {
-            *sum += cross(*first, gravity);
+        for (i, sum) in sum.iter_mut().enumerate() {
+            *sum += cross(node.matrix.outboard_first(i), gravity);
         }
         if load.pushes_arm() || carrier.support != 0.0 {
             let tip = turn.undo(load.tip_force);
@@ -33,7 +33,7 @@ impl<const N: usize> Dynamics<N> {
         match vehicle.balancer {
             None => {}
             Some(Balancer::Counterweight(slider)) => sum[N - 1] = drift + slider.mass * gravity.x,
-            Some(Balancer::Element(_)) => sum[N - 1] = drift + cross(node.matrix.outboard_first[N - 1], gravity),
+            Some(Balancer::Element(_)) => sum[N - 1] = drift + cross(node.matrix.outboard_first(N - 1), gravity),
         }
         sum
     }

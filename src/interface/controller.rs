@@ -90,8 +90,12 @@ impl Model for ControllerUnit {
     fn step(&mut self, data: &mut Data, step: CommunicationStep) -> Result<(), Error> {
         let t = step.from - step.start_time;
         self.0.step(&data.parameters, &data.inputs, t, step.size, &mut data.outputs)?;
-        // A failure leaves nothing that is not finite.
-        data.outputs.check(t + step.size).inspect_err(|_| data.outputs = Outputs::default())
+        if let Err(error) = data.outputs.check(t + step.size) {
+            // A failure leaves nothing that is not finite.
+            data.outputs = Outputs::default();
+            return Err(error);
+        }
+        Ok(())
     }
 
     fn differentiate(&self, data: &mut Data, elapsed: f64) {

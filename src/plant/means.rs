@@ -51,7 +51,7 @@ impl<const N: usize> Means<N> {
             },
             force: vec2(0.0, -vehicle.carried_mass() * vehicle.gravity),
             moment,
-            effort: SVector::from_fn(|i, _| node.matrix.outboard_first[i].x * vehicle.gravity),
+            effort: SVector::from_fn(|i, _| node.matrix.outboard_first(i).x * vehicle.gravity),
             payload: Vec2::zeros(),
         }
     }
