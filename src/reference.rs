@@ -174,16 +174,17 @@ impl Reference {
     /// The wanted motion at time `t` \[s\] from the start; at rest for [`ReferenceKind::External`].
     #[must_use]
     pub fn at(&self, t: f64) -> Target {
-        self.begun_at(Vec2::zeros(), t)
+        let mut target = Target::AT_REST;
+        self.write(Vec2::zeros(), t, &mut target);
+        target
     }
 
-    /// [`Reference::at`], with displacements from the place that is at -`start`.
-    #[must_use]
-    pub fn begun_at(&self, start: Vec2, t: f64) -> Target {
-        let mut target = Target { displacement: start, ..Target::AT_REST };
+    /// The wanted motion at time `t` \[s\], which starts at `origin` \[m\], written to `target`.
+    pub fn write(&self, origin: Vec2, t: f64, target: &mut Target) {
+        *target = Target { displacement: origin, ..Target::AT_REST };
         match self.kind {
             ReferenceKind::Path => {
-                self.legs.iter().for_each(|leg| leg.add(t, &mut target));
+                self.legs.iter().for_each(|leg| leg.add(t, target));
             }
             ReferenceKind::Circle => {
                 let turn = std::f64::consts::TAU;
@@ -198,6 +199,5 @@ impl Reference {
             }
             ReferenceKind::External => {}
         }
-        target
     }
 }

@@ -55,8 +55,8 @@ pub struct Controller<const N: usize> {
     /// The prediction at the end of the planned interval, as long as that is untouched: nothing of it has passed.
     planned_end: Box<Prediction<N>>,
     untouched: bool,
-    /// The end of the planned interval, and the wanted motion there if it does not depend on inputs: to be worked
-    /// out once.
+    /// A time, mostly the end of the planned interval, and the wanted motion then: where it does not depend on inputs,
+    /// it is worked out once.
     foreseen: (f64, Target),
 }
 
@@ -109,18 +109,18 @@ impl<const N: usize> Controller<N> {
 
     /// Plans the interval from time `t` on, where the reference is at `wanted`.
     fn plan(&mut self, t: f64, wanted: &Target, inputs: &Inputs, outputs: &mut Outputs) -> Result<()> {
-        let target = self.target(t, self.horizon, inputs);
-        self.foreseen = (t + self.horizon, target);
+        self.foresee(t, self.horizon, inputs);
+        let velocity = self.foreseen.1.velocity;
         let plan = match self.discretization {
-            Discretization::Exact => self.plan_towards(t, wanted, &target)?,
+            Discretization::Exact => self.plan_towards(t, wanted)?,
             Discretization::Euler if self.outset.resolver.accelerates() => {
                 self.outset.accelerate_euler(t, self.horizon, wanted.acceleration, &mut self.planned_end)
             }
-            Discretization::Euler => self.outset.plan_euler(t, self.horizon, target.velocity, &mut self.planned_end),
+            Discretization::Euler => self.outset.plan_euler(t, self.horizon, velocity, &mut self.planned_end),
         };
         plan.check(t)?;
         self.planned_end.situation.state.check(t)?;
-        self.aim = target.displacement;
+        self.aim = self.foreseen.1.displacement;
         let outset = &mut self.outset;
         if self.discretization == Discretization::Exact {
             outset.before.rotate_right(1);
@@ -136,10 +136,10 @@ impl<const N: usize> Controller<N> {
         Ok(())
     }
 
-    /// A plan that brings the end effector from the reference at `wanted` onto the `target`, or as near to it as it
-    /// may come in one interval.
-    fn plan_towards(&mut self, t: f64, wanted: &Target, target: &Target) -> Result<Plan<N>> {
-        let Self { outset, planned_end: end, horizon, aim, .. } = self;
+    /// A plan that brings the end effector from the reference at `wanted` to where it is foreseen at the end of the
+    /// interval, or as near to it as it may come in one interval.
+    fn plan_towards(&mut self, t: f64, wanted: &Target) -> Result<Plan<N>> {
+        let Self { outset, planned_end: end, horizon, aim, foreseen: (_, target), .. } = self;
         let (horizon, here, now) = (*horizon, outset.now.end_effector(), wanted.displacement);
         let followed = |way: Vec2| outset.resolver.followed(way);
         let left_over = followed(*aim - here).cap_magnitude(CATCHING_UP * horizon);
@@ -162,21 +162,23 @@ impl<const N: usize> Controller<N> {
         Ok(plan)
     }
 
-    /// The wanted motion `ahead` \[s\] after time `t`, its displacement from the origin of the inertial frame.
-    fn target(&self, t: f64, ahead: f64, inputs: &Inputs) -> Target {
-        if self.reference.kind == ReferenceKind::External {
+    /// Foresees the wanted motion `ahead` \[s\] after time `t`.
+    ///
+    /// In place: returned by value, a target is copied before it has left the processor's store buffer, which waits.
+    #[inline]
+    fn foresee(&mut self, t: f64, ahead: f64, inputs: &Inputs) {
+        let Self { reference, origin, foreseen: (time, target), .. } = self;
+        if reference.kind == ReferenceKind::External {
             let (v, a) = (inputs.velocity, inputs.acceleration);
-            return Target {
+            *target = Target {
                 displacement: inputs.position + (v + a * (0.5 * ahead)) * ahead,
                 velocity: v + a * ahead,
                 acceleration: a,
             };
+        } else if *time != t + ahead {
+            reference.write(*origin, t + ahead, target);
         }
-        let (end, target) = &self.foreseen;
-        if *end == t + ahead {
-            return *target;
-        }
-        self.reference.begun_at(self.origin, t + ahead)
+        *time = t + ahead;
     }
 
     /// Advances the prediction by `size` \[s\] at the rates sent; `tuned`: by other laws than were planned with.
@@ -248,7 +250,8 @@ impl<const N: usize> Planner for Controller<N> {
         self.grasp_in_time(0.0);
         // How long the host's steps are is not known yet: a ramp might be held far beyond its end.
         let hold = std::mem::replace(&mut self.outset.hold, Hold::ZeroOrder);
-        let wanted = self.target(0.0, 0.0, &here);
+        self.foresee(0.0, 0.0, &here);
+        let wanted = self.foreseen.1;
         self.plan(0.0, &wanted, &here, outputs)?;
         self.outset.hold = hold;
         self.write_prediction(&wanted, outputs);
@@ -268,7 +271,8 @@ impl<const N: usize> Planner for Controller<N> {
         self.predict(t, size, tuned)?;
         let now = t + size;
         self.grasp_in_time(now);
-        let wanted = self.target(now, 0.0, inputs);
+        self.foresee(now, 0.0, inputs);
+        let wanted = self.foreseen.1;
         if now - self.planned_at >= self.horizon - SAME_INSTANT * self.sample_time {
             let steps = self.sample_time / size - SAME_INSTANT;
             self.horizon = if steps > 1.0 { size * steps.ceil() } else { size };
@@ -282,7 +286,10 @@ impl<const N: usize> Planner for Controller<N> {
         let Outset { dynamics, now, .. } = &self.outset;
         let now = &now.situation;
         let mut rates = Rates {
-            reference_velocity: self.target(t, 0.0, inputs).acceleration,
+            reference_velocity: match self.reference.kind {
+                ReferenceKind::External => inputs.acceleration,
+                ReferenceKind::Path | ReferenceKind::Circle => self.reference.at(t).acceleration,
+            },
             predicted_end_effector: self.outset.end_effector_velocity(now, now.base()),
             predicted_velocity: dynamics.at_end(now, &self.slope_before, &Load::NONE).acceleration,
             ..Rates::default()

@@ -191,10 +191,11 @@ impl Resolver {
     /// Scales rates down so that none exceeds its limit, and sums up how they came about.
     fn scaled<const N: usize>(&self, problem: &Problem<N>, found: &PseudoInverse<N>) -> Resolved<N> {
         let excess = self.excess(&found.rate);
-        let rate = found.rate / excess;
+        let limited = excess > 1.0;
+        let rate = if limited { found.rate / excess } else { found.rate };
         Resolved {
             rate,
-            status: if excess > 1.0 { Status::RateLimited } else { found.status() },
+            status: if limited { Status::RateLimited } else { found.status() },
             min_singular_value: found.min_singular_value,
             moment: problem.moment.value - problem.moment.row.dot(&rate),
             places: qp::FREE,
