@@ -3,6 +3,7 @@
 mod acceleration;
 mod euler;
 mod exact;
+mod foreseen;
 mod limits;
 mod method;
 mod outset;

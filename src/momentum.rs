@@ -152,9 +152,15 @@ impl<const N: usize> MomentumMatrix<N> {
     }
 
     /// H_m q_dot: momentum from the rates alone.
-    #[inline]
     #[must_use]
     pub fn of_rates(&self, rate: &SVector<f64, N>) -> Twist {
+        self.sum_of_rates(rate)
+    }
+
+    /// The same, for a caller of its own: returned through memory, a twist is copied before it has left the processor's
+    /// store buffer, which takes longer than the sums.
+    #[inline(always)]
+    pub(crate) fn sum_of_rates(&self, rate: &SVector<f64, N>) -> Twist {
         self.columns.iter().zip(rate.iter()).fold(Twist::ZERO, |sum, (column, rate)| sum + *column * *rate)
     }
 

@@ -27,22 +27,68 @@ const ITERATIONS: usize = 6;
 const ON_REFERENCE: f64 = 1e-12;
 
 /// Farther from the reference than this, an iteration that has come to its end has failed \[m\].
-pub(super) const INEXACT: f64 = 1e-6;
+const INEXACT: f64 = 1e-6;
 
 /// Moment impulses on the UAV below this are none \[N m s\].
 const NO_IMPULSE: f64 = 1e-12;
+
+/// What a plan has left over, for instance beyond reach, is made good at this speed at most \[m/s\].
+const CATCHING_UP: f64 = 0.2;
+
+/// What an external reference moves beyond what was foreseen is followed at this speed at most \[m/s\].
+const UNFORESEEN: f64 = 2.0;
+
+/// A target nearer than this is not said to be out of what one interval may make good \[m\].
+const SHORTENED: f64 = 1e-9;
 
 /// Plans of which a polynomial leaves at most this share of the change from the one before unforeseen follow a smooth path.
 const SMOOTH: f64 = 0.1;
 
 impl<const N: usize> Outset<N> {
+    /// A plan for the interval of length `horizon` from time `t` that brings the end effector onto the `target`, or as near
+    /// to it as it may come in one interval; the wanted place is `now` now, and was foreseen to be `aim` \[m\]. Writes the
+    /// prediction at its `end`.
+    ///
+    /// # Errors
+    /// If the interval cannot be integrated.
+    pub fn plan_towards(
+        &self,
+        t: f64,
+        horizon: f64,
+        aim: Vec2,
+        now: Vec2,
+        target: &Target,
+        end: &mut Prediction<N>,
+    ) -> Result<Plan<N>> {
+        let here = self.now.end_effector();
+        let followed = |way: Vec2| self.resolver.followed(way);
+        let left_over = followed(aim - here).cap_magnitude(CATCHING_UP * horizon);
+        let unforeseen = followed(now - aim).cap_magnitude(UNFORESEEN * horizon);
+        let nearer = Target {
+            displacement: here + left_over + unforeseen + (target.displacement - now),
+            velocity: target.velocity + (left_over + unforeseen) / horizon,
+            ..*target
+        };
+        let mut plan = self.plan_exact(t, horizon, &nearer, end)?;
+        let missing = followed(target.displacement - end.end_effector());
+        plan.velocity_residual = missing.norm() / horizon;
+        let shortened = followed(now - here) - (left_over + unforeseen);
+        // Rates that do not jump bring it onto the path by and by.
+        let off = if self.resolver.accelerates() { INEXACT } else { SHORTENED };
+        let apart = shortened != Vec2::zeros() || self.resolver.accelerates();
+        if plan.status == Status::Ok && apart && missing.norm() > off {
+            plan.status = Status::CatchingUp;
+        }
+        Ok(plan)
+    }
+
     /// The motion in the interval of length `horizon` from time `t` at whose end the end effector is on the `target`, as
     /// near as the iteration gets: at its place, with a hold of first order with its velocity, too, and if
     /// accelerations are chosen with its velocity alone. Writes the prediction at its `end`.
     ///
     /// # Errors
     /// If the interval cannot be integrated.
-    pub fn plan_exact(&self, t: f64, horizon: f64, target: &Target, end: &mut Prediction<N>) -> Result<Plan<N>> {
+    fn plan_exact(&self, t: f64, horizon: f64, target: &Target, end: &mut Prediction<N>) -> Result<Plan<N>> {
         let accelerates = self.resolver.accelerates();
         let ramped = accelerates || self.hold == Hold::FirstOrder;
         let mut plan = Plan { places: self.places, ..Plan::moving(self.go_on(horizon)) };

@@ -5,12 +5,12 @@
 
 use nalgebra::SVector;
 
-use super::exact::INEXACT;
+use super::foreseen::Foreseen;
 use super::outset::Outset;
 use super::plan::Plan;
 use super::prediction::Prediction;
 use super::resolution::Resolver;
-use super::{Inputs, Outputs, Planner, Rates, Status};
+use super::{Inputs, Outputs, Planner, Rates};
 use crate::autopilot::AutopilotMode;
 use crate::bytes::{Memory, Tape};
 use crate::dynamics::{Dynamics, Load, Motion};
@@ -18,22 +18,13 @@ use crate::error::{Error, Result};
 use crate::parameters::{Discretization, Hold, Parameters, Structure};
 use crate::planar::Vec2;
 use crate::qp;
-use crate::reference::{Reference, ReferenceKind, Target};
+use crate::reference::Target;
 
 /// Sample instants this share of a sample time ahead are reached.
 const SAME_INSTANT: f64 = 1e-6;
 
 /// Times this close are the same \[s\]: hosts add up their steps.
 const SAME_TIME: f64 = 1e-9;
-
-/// What a plan has left over, for instance beyond reach, is made good at this speed at most \[m/s\].
-const CATCHING_UP: f64 = 0.2;
-
-/// What an external reference moves beyond what was foreseen is followed at this speed at most \[m/s\].
-const UNFORESEEN: f64 = 2.0;
-
-/// A target nearer than this is not said to be out of what one interval may make good \[m\].
-const SHORTENED: f64 = 1e-9;
 
 /// Inverse kinematics of an aerial manipulator with `N` coordinates, with its prediction.
 #[derive(Debug, Clone)]
@@ -44,9 +35,7 @@ pub struct Controller<const N: usize> {
     discretization: Discretization,
     sample_time: f64,
     grasp_time: f64,
-    reference: Reference,
-    /// Where the end effector starts.
-    origin: Vec2,
+    foreseen: Foreseen,
     /// Where the reference was expected at the end of the planned interval.
     aim: Vec2,
     /// When the last plan was made, from the start, and for how long.
@@ -55,9 +44,6 @@ pub struct Controller<const N: usize> {
     /// The prediction at the end of the planned interval, as long as that is untouched: nothing of it has passed.
     planned_end: Box<Prediction<N>>,
     untouched: bool,
-    /// A time, mostly the end of the planned interval, and the wanted motion then: where it does not depend on inputs,
-    /// it is worked out once.
-    foreseen: (f64, Target),
 }
 
 impl<const N: usize> Controller<N> {
@@ -87,15 +73,13 @@ impl<const N: usize> Controller<N> {
             discretization: ik.discretization,
             sample_time: ik.sample_time,
             grasp_time: parameters.payload.grasp_time,
-            reference: parameters.reference,
+            foreseen: Foreseen::new(parameters.reference, origin),
             slope_before: SVector::zeros(),
             planned_at: 0.0,
             horizon: ik.sample_time,
             planned_end,
             untouched: false,
-            origin,
             aim: origin,
-            foreseen: (f64::NAN, Target::AT_REST),
         })
     }
 
@@ -109,19 +93,18 @@ impl<const N: usize> Controller<N> {
 
     /// Plans the interval from time `t` on, where the reference is at `wanted`.
     fn plan(&mut self, t: f64, wanted: &Target, inputs: &Inputs, outputs: &mut Outputs) -> Result<()> {
-        self.foresee(t, self.horizon, inputs);
-        let velocity = self.foreseen.1.velocity;
+        let Self { outset, planned_end: end, aim, horizon, .. } = self;
+        let target = self.foreseen.at(t, *horizon, inputs);
         let plan = match self.discretization {
-            Discretization::Exact => self.plan_towards(t, wanted)?,
-            Discretization::Euler if self.outset.resolver.accelerates() => {
-                self.outset.accelerate_euler(t, self.horizon, wanted.acceleration, &mut self.planned_end)
+            Discretization::Exact => outset.plan_towards(t, *horizon, *aim, wanted.displacement, target, end)?,
+            Discretization::Euler if outset.resolver.accelerates() => {
+                outset.accelerate_euler(t, *horizon, wanted.acceleration, end)
             }
-            Discretization::Euler => self.outset.plan_euler(t, self.horizon, velocity, &mut self.planned_end),
+            Discretization::Euler => outset.plan_euler(t, *horizon, target.velocity, end),
         };
         plan.check(t)?;
-        self.planned_end.situation.state.check(t)?;
-        self.aim = self.foreseen.1.displacement;
-        let outset = &mut self.outset;
+        end.situation.state.check(t)?;
+        *aim = target.displacement;
         if self.discretization == Discretization::Exact {
             outset.before.rotate_right(1);
             outset.before[0] = plan.motion;
@@ -134,51 +117,6 @@ impl<const N: usize> Controller<N> {
         outputs.velocity_residual = plan.velocity_residual;
         outputs.moment_residual = plan.moment_residual;
         Ok(())
-    }
-
-    /// A plan that brings the end effector from the reference at `wanted` to where it is foreseen at the end of the
-    /// interval, or as near to it as it may come in one interval.
-    fn plan_towards(&mut self, t: f64, wanted: &Target) -> Result<Plan<N>> {
-        let Self { outset, planned_end: end, horizon, aim, foreseen: (_, target), .. } = self;
-        let (horizon, here, now) = (*horizon, outset.now.end_effector(), wanted.displacement);
-        let followed = |way: Vec2| outset.resolver.followed(way);
-        let left_over = followed(*aim - here).cap_magnitude(CATCHING_UP * horizon);
-        let unforeseen = followed(now - *aim).cap_magnitude(UNFORESEEN * horizon);
-        let nearer = Target {
-            displacement: here + left_over + unforeseen + (target.displacement - now),
-            velocity: target.velocity + (left_over + unforeseen) / horizon,
-            ..*target
-        };
-        let mut plan = outset.plan_exact(t, horizon, &nearer, end)?;
-        let missing = followed(target.displacement - end.end_effector());
-        plan.velocity_residual = missing.norm() / horizon;
-        let shortened = followed(now - here) - (left_over + unforeseen);
-        // Rates that do not jump bring it onto the path by and by.
-        let off = if outset.resolver.accelerates() { INEXACT } else { SHORTENED };
-        let apart = shortened != Vec2::zeros() || outset.resolver.accelerates();
-        if plan.status == Status::Ok && apart && missing.norm() > off {
-            plan.status = Status::CatchingUp;
-        }
-        Ok(plan)
-    }
-
-    /// Foresees the wanted motion `ahead` \[s\] after time `t`.
-    ///
-    /// In place: returned by value, a target is copied before it has left the processor's store buffer, which waits.
-    #[inline]
-    fn foresee(&mut self, t: f64, ahead: f64, inputs: &Inputs) {
-        let Self { reference, origin, foreseen: (time, target), .. } = self;
-        if reference.kind == ReferenceKind::External {
-            let (v, a) = (inputs.velocity, inputs.acceleration);
-            *target = Target {
-                displacement: inputs.position + (v + a * (0.5 * ahead)) * ahead,
-                velocity: v + a * ahead,
-                acceleration: a,
-            };
-        } else if *time != t + ahead {
-            reference.write(*origin, t + ahead, target);
-        }
-        *time = t + ahead;
     }
 
     /// Advances the prediction by `size` \[s\] at the rates sent; `tuned`: by other laws than were planned with.
@@ -224,14 +162,12 @@ impl<const N: usize> Memory for Controller<N> {
             discretization: _,
             sample_time: _,
             grasp_time: _,
-            reference: _,
-            origin: _,
+            foreseen: _,
             aim,
             planned_at,
             horizon,
             planned_end,
             untouched,
-            foreseen: _,
         } = self;
         outset.pass(tape);
         slope_before.pass(tape);
@@ -245,13 +181,12 @@ impl<const N: usize> Memory for Controller<N> {
 impl<const N: usize> Planner for Controller<N> {
     fn begin(&mut self, outputs: &mut Outputs) -> Result<()> {
         // Measurements and external references act from the first step on.
-        let here = Inputs { position: self.origin, ..Inputs::default() };
+        let here = Inputs { position: self.foreseen.origin, ..Inputs::default() };
         *outputs = Outputs::default();
         self.grasp_in_time(0.0);
         // How long the host's steps are is not known yet: a ramp might be held far beyond its end.
         let hold = std::mem::replace(&mut self.outset.hold, Hold::ZeroOrder);
-        self.foresee(0.0, 0.0, &here);
-        let wanted = self.foreseen.1;
+        let wanted = *self.foreseen.at(0.0, 0.0, &here);
         self.plan(0.0, &wanted, &here, outputs)?;
         self.outset.hold = hold;
         self.write_prediction(&wanted, outputs);
@@ -271,8 +206,7 @@ impl<const N: usize> Planner for Controller<N> {
         self.predict(t, size, tuned)?;
         let now = t + size;
         self.grasp_in_time(now);
-        self.foresee(now, 0.0, inputs);
-        let wanted = self.foreseen.1;
+        let wanted = *self.foreseen.at(now, 0.0, inputs);
         if now - self.planned_at >= self.horizon - SAME_INSTANT * self.sample_time {
             let steps = self.sample_time / size - SAME_INSTANT;
             self.horizon = if steps > 1.0 { size * steps.ceil() } else { size };
@@ -286,10 +220,7 @@ impl<const N: usize> Planner for Controller<N> {
         let Outset { dynamics, now, .. } = &self.outset;
         let now = &now.situation;
         let mut rates = Rates {
-            reference_velocity: match self.reference.kind {
-                ReferenceKind::External => inputs.acceleration,
-                ReferenceKind::Path | ReferenceKind::Circle => self.reference.at(t).acceleration,
-            },
+            reference_velocity: self.foreseen.acceleration(t, inputs),
             predicted_end_effector: self.outset.end_effector_velocity(now, now.base()),
             predicted_velocity: dynamics.at_end(now, &self.slope_before, &Load::NONE).acceleration,
             ..Rates::default()

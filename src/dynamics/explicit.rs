@@ -41,7 +41,7 @@ impl<const N: usize> Dynamics<N> {
         end: &mut Situation<N>,
     ) {
         let (state, matrix) = (&mut end.state, &here.node.matrix);
-        let arm = matrix.of_rates(rate);
+        let arm = matrix.sum_of_rates(rate);
         let base = self.base_motion(&here.node, state.momentum_in(here.turn), arm);
         state.velocity = in_inertial_frame(here.turn, base);
         state.rate = *rate;

@@ -74,9 +74,10 @@ impl<const N: usize> Node<N> {
     }
 
     /// The same arm, moving at `rate`.
+    #[inline(never)]
     pub fn move_at(&mut self, rate: SVector<f64, N>) {
         self.rate = rate;
-        self.arm = self.matrix.of_rates(&rate);
+        self.arm = self.matrix.sum_of_rates(&rate);
     }
 
     /// Velocity of a point of the last link at `place`, while the base moves with `v`; UAV frame.
