@@ -24,7 +24,7 @@ impl<const N: usize> Dynamics<N> {
         state.contact = self.touches(&flow, node, state.held);
         let scene = Self::scene(state);
         let mut rate = Flow::zeros();
-        self.law_at(&mut rate, &flow, node, here.base(), load, &scene);
+        self.written(&mut rate, &flow, node, here.base(), load, &scene);
         state.momentum += Vector3::new(rate[3], rate[4], rate[5]) * size;
         state.integrals += vec2(rate[6], rate[7]) * size;
         self.carried_load(node, &self.carrier(&flow, &rate), load) * size

@@ -191,7 +191,7 @@ impl<const N: usize> Dynamics<N> {
     }
 
     #[inline(always)]
-    fn written(&self, k: &mut Flow, y: &Flow, node: &Node<N>, v: Twist, load: &Load, scene: &Scene<'_, N>) {
+    pub(super) fn written(&self, k: &mut Flow, y: &Flow, node: &Node<N>, v: Twist, load: &Load, scene: &Scene<'_, N>) {
         let turn = self.arm_turn(y);
         let velocity = in_inertial_frame(turn, v);
         let mut control = self.control(y, &velocity, load, scene);
