@@ -32,7 +32,6 @@ pub use rates::Rates;
 use crate::autopilot::{Autopilot, AutopilotMode, Gains};
 use crate::bytes::{Memory, Tape};
 use crate::error::{Error, Result};
-use crate::kinematics::Posture;
 use crate::memory;
 use crate::momentum::Twist;
 use crate::parameters::{BaseModel, MomentModel, Parameters, Structure, Support};
@@ -363,8 +362,7 @@ impl<const N: usize> Dynamics<N> {
     /// What follows from a state.
     #[must_use]
     pub fn situation(&self, state: State<N>) -> Situation<N> {
-        let posture = Posture::new(&self.vehicle, &state.position);
-        let node = Node::new(&self.vehicle, posture, state.held, state.rate);
+        let node = Node::new(&self.vehicle, &state.position, state.held, &state.rate);
         Situation { turn: self.base.turn(state.pose.z), node, state }
     }
 

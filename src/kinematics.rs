@@ -70,36 +70,54 @@ impl<const N: usize> Displacement<N> {
 }
 
 impl<const N: usize> Posture<N> {
+    /// Everything in one place.
+    pub(crate) const NOWHERE: Self = {
+        let place = vec2(0.0, 0.0);
+        Self { direction: [place; N], joint: [place; N], end_effector: place, payload: place, counterweight: place }
+    };
+
     /// The posture with the coordinates `q` \[rad, m\].
     #[must_use]
     pub fn new(vehicle: &Vehicle<N>, q: &SVector<f64, N>) -> Self {
-        let hanging = Self {
-            direction: [Turn::NONE.down(); N],
-            joint: [vehicle.mount; N],
-            end_effector: vehicle.mount,
-            payload: vehicle.mount,
-            counterweight: match vehicle.balancer {
-                Some(Balancer::Counterweight(slider)) => vec2(0.0, slider.height),
-                Some(Balancer::Element(_)) | None => Vec2::zeros(),
-            },
-        };
-        let mut posture = hanging;
-        posture.follow(vehicle, &hanging, &Displacement::by(vehicle, q, Turn::by));
+        let mut posture = Self::NOWHERE;
+        posture.take(vehicle, q);
         posture
+    }
+
+    /// Becomes the posture with the coordinates `q` \[rad, m\].
+    #[inline]
+    pub fn take(&mut self, vehicle: &Vehicle<N>, q: &SVector<f64, N>) {
+        let way = Displacement::by(vehicle, q, Turn::by);
+        for (direction, turn) in self.direction.iter_mut().zip(way.turn) {
+            *direction = turn.down();
+        }
+        self.counterweight = match vehicle.balancer {
+            Some(Balancer::Counterweight(slider)) => vec2(way.slide, slider.height),
+            Some(Balancer::Element(_)) | None => Vec2::zeros(),
+        };
+        self.join(vehicle);
     }
 
     /// Becomes the posture that is `way` from the posture `from`.
     #[inline]
     pub fn follow(&mut self, vehicle: &Vehicle<N>, from: &Self, way: &Displacement<N>) {
-        let mut tip = vehicle.mount;
         for i in 0..N {
             self.direction[i] = way.turn[i].apply(from.direction[i]);
+        }
+        self.counterweight = vec2(from.counterweight.x + way.slide, from.counterweight.y);
+        self.join(vehicle);
+    }
+
+    /// Joins the links, each at the end of the one before.
+    #[inline(always)]
+    fn join(&mut self, vehicle: &Vehicle<N>) {
+        let mut tip = vehicle.mount;
+        for i in 0..N {
             self.joint[i] = tip;
             tip += self.direction[i] * vehicle.length[i];
         }
         self.end_effector = tip;
         let last = vehicle.links - 1;
         self.payload = self.joint[last] + self.direction[last] * vehicle.payload_com;
-        self.counterweight = vec2(from.counterweight.x + way.slide, from.counterweight.y);
     }
 }

@@ -89,7 +89,7 @@ memory!(MomentumMatrix<N> { mass, first, columns, center, lightness, compliance,
 
 impl<const N: usize> MomentumMatrix<N> {
     /// Nothing has been summed up yet.
-    const NOTHING: Self = Self {
+    pub(crate) const NOTHING: Self = Self {
         mass: 0.0,
         first: vec2(0.0, 0.0),
         columns: [Twist::ZERO; N],

@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Result};
 use crate::options;
-use crate::planar::{Vec2, vec2};
+use crate::planar::{Turn, Vec2, vec2};
 
 /// Number of legs that a path can have.
 pub const LEGS: usize = 4;
@@ -100,7 +100,7 @@ impl Profile {
         match self {
             Self::Trapezoidal => [0.5 * t * share, share, steepness],
             Self::Smooth => {
-                let (sin, cos) = (TURN * share).sin_cos();
+                let [cos, sin] = Turn::by(TURN * share).cos_sin();
                 [
                     0.5 * t * share - duration * (PER_TURN * PER_TURN) * (1.0 - cos),
                     share - sin * PER_TURN,

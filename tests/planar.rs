@@ -23,14 +23,32 @@ fn a_small_turn_has_the_tabulated_sine_and_cosine() {
 /// Relative to the angle, so that tiny turns are right, too.
 #[test]
 fn a_small_turn_equals_the_general_one_to_rounding_up_to_its_bound_and_beyond() {
-    for i in -4000..=4000 {
-        let angle = f64::from(i) * 1e-5;
+    for i in -3000..=3000 {
+        let angle = f64::from(i) / 1e5;
         let turned = Turn::by_small(angle).apply(vec2(1.0, 0.0));
         assert!((turned.y - angle.sin()).abs() <= 2.3e-16 * angle.abs(), "sin {angle}");
         assert!((turned.x - angle.cos()).abs() <= 2.3e-16, "cos {angle}");
     }
     for angle in [0.03, -0.03, 0.03_f64.next_up(), 0.5, -3.0, 100.0] {
-        assert!(difference(Turn::by_small(angle), Turn::by(angle)) <= 2.3e-16, "{angle}");
+        assert!(difference(Turn::by_small(angle), Turn::by(angle)) <= 4e-16, "{angle}");
+    }
+}
+
+/// Against the trigonometric functions, all over the circle, at the borders of its parts, and far away, where many turns
+/// are to be taken off exactly.
+#[test]
+fn a_turn_has_the_cosine_and_sine_of_its_angle() {
+    let part = std::f64::consts::TAU / 256.0;
+    let parts = (-1000..=1000).map(|i| f64::from(i) * part);
+    let far = (0..2000).map(|i| 25.1 * f64::from(i) - 1e-3);
+    let borders = [0.0, -0.0, 1e-300, -1e-9, 4.999_999e4, 5e4, 1e5, -1e9, 1e300];
+    for angle in parts.chain(far).chain(borders).flat_map(|angle| [angle, angle.next_up(), angle.next_down(), -angle]) {
+        let turned = Turn::by(angle).apply(vec2(1.0, 0.0));
+        assert!((turned.x - angle.cos()).abs() <= 4e-16, "cos {angle}");
+        assert!((turned.y - angle.sin()).abs() <= 4e-16, "sin {angle}");
+    }
+    for angle in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        assert!(Turn::by(angle).apply(vec2(1.0, 0.0)).x.is_nan(), "{angle}");
     }
 }
 

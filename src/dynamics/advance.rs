@@ -8,7 +8,6 @@ use super::runge_kutta::Internal;
 use super::{Account, Dynamics, Impulse, Load, Loads, Motion, Node, Situation, State, in_inertial_frame};
 use crate::autopilot::AutopilotMode;
 use crate::error::{Error, Result};
-use crate::kinematics::Posture;
 use crate::planar::{Turn, Vec2, vec2};
 use crate::vehicle::Balancer;
 
@@ -108,8 +107,7 @@ impl<const N: usize> Dynamics<N> {
         }
         state.position = start + motion.way(size);
         if refreshed(t) != refreshed(t + size) {
-            let posture = Posture::new(&self.vehicle, &state.position);
-            *node = Node::new(&self.vehicle, posture, state.held, motion.rate_after(size));
+            node.take(&self.vehicle, &state.position, state.held, &motion.rate_after(size));
             [flow[8], flow[9]] = Turn::by(flow[2]).cos_sin();
         }
         *turn = self.arm_turn(&flow);

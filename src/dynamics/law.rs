@@ -48,12 +48,21 @@ pub struct Node<const N: usize> {
 memory!(Node<N> { posture, matrix, rate, arm });
 
 impl<const N: usize> Node<N> {
-    /// The arm in `posture`, moving at `rate`.
+    /// The arm with the coordinates `q` \[rad, m\], moving at `rate`.
     #[must_use]
-    pub fn new(vehicle: &Vehicle<N>, posture: Posture<N>, held: bool, rate: SVector<f64, N>) -> Self {
-        let matrix = MomentumMatrix::new(vehicle, &posture, held);
-        let arm = matrix.of_rates(&rate);
-        Self { posture, matrix, rate, arm }
+    pub fn new(vehicle: &Vehicle<N>, q: &SVector<f64, N>, held: bool, rate: &SVector<f64, N>) -> Self {
+        let (posture, matrix) = (Posture::NOWHERE, MomentumMatrix::NOTHING);
+        let mut node = Self { posture, matrix, rate: *rate, arm: Twist::ZERO };
+        node.take(vehicle, q, held, rate);
+        node
+    }
+
+    /// Becomes the arm with the coordinates `q` \[rad, m\], moving at `rate`.
+    #[inline(never)]
+    pub fn take(&mut self, vehicle: &Vehicle<N>, q: &SVector<f64, N>, held: bool, rate: &SVector<f64, N>) {
+        self.posture.take(vehicle, q);
+        self.matrix.sum_up(vehicle, &self.posture, held);
+        self.move_at(*rate);
     }
 
     /// Becomes the arm that is `way` from the node `from`, moving at `rate`.

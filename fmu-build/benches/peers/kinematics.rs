@@ -12,7 +12,6 @@ use fmu_build::fmu::{Instance, Selection, Value};
 use libloading::Library;
 use uam::controller::{Inputs, Outputs, Problem, Response, Task};
 use uam::dynamics::{Dynamics, Node, State};
-use uam::kinematics::Posture;
 use uam::momentum::Twist;
 use uam::options::Choice;
 use uam::parameters::{BaseModel, Discretization, PathAxes, Resolution};
@@ -94,10 +93,11 @@ impl Ours {
     /// Like [`Pinocchio::solve`].
     fn solve(&self, turn: f64, times: u32) -> [f64; 3] {
         let (vehicle, mut q, mut sum) = (&self.dynamics.vehicle, self.start.position, self.start.rate);
+        let mut node = Node::new(vehicle, &q, false, &sum);
         let (target, reach) = (vec2(WANTED[0], WANTED[1]), vehicle.reach());
         for _ in 0..times {
             q.add_scalar_mut(turn);
-            let node = Node::new(vehicle, Posture::new(vehicle, &q), false, self.start.rate);
+            node.take(vehicle, &q, false, &self.start.rate);
             let response = Response::new(&self.dynamics, &node, Turn::NONE, Twist::ZERO, false);
             let problem = Problem {
                 path: response.jacobian,

@@ -7,7 +7,6 @@ use crate::dynamics::contact::{NO_GAP, lowest, switching_instant};
 use crate::dynamics::law::Scene;
 use crate::dynamics::{Account, Dynamics, Impulse, Loads, Motion, Node, Situation, in_inertial_frame};
 use crate::error::{Error, Result};
-use crate::kinematics::Posture;
 use crate::planar::{Turn, vec2};
 
 /// Longest internal step \[s\]: light links that start to swing are faster than their rates tell.
@@ -86,8 +85,8 @@ impl<const N: usize> Dynamics<N> {
             }
         }
         state.position = start + motion.way(size) + phase.way;
-        let posture = Posture::new(&self.vehicle, &state.position);
-        *node = Node::new(&self.vehicle, posture, state.held, node.rate);
+        let rate = node.rate;
+        node.take(&self.vehicle, &state.position, state.held, &rate);
         [phase.flow[8], phase.flow[9]] = Turn::by(phase.flow[2]).cos_sin();
         *turn = self.arm_turn(&phase.flow);
         self.settle(state, &phase.flow, node);
