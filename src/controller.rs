@@ -159,18 +159,14 @@ pub trait Planner: Memory + Send {
     /// If there is no plan of finite rates.
     fn begin(&mut self, outputs: &mut Outputs) -> Result<()>;
 
+    /// Takes over those of the `parameters` that may change during a run.
+    fn tune(&mut self, parameters: &Parameters);
+
     /// Advances the prediction from `t`, counted from the start, by `size` \[s\] and plans if it is time.
     ///
     /// # Errors
     /// If the prediction is no longer finite.
-    fn step(
-        &mut self,
-        parameters: &Parameters,
-        inputs: &Inputs,
-        t: f64,
-        size: f64,
-        outputs: &mut Outputs,
-    ) -> Result<()>;
+    fn step(&mut self, inputs: &Inputs, t: f64, size: f64, outputs: &mut Outputs) -> Result<()>;
 
     /// How fast the outputs at time `t`, the present one counted from the start, change.
     fn rates(&self, inputs: &Inputs, t: f64) -> Rates;

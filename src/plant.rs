@@ -133,18 +133,14 @@ pub trait Simulation: Memory + Send {
     /// Writes the part of the outputs that is the state.
     fn write_state(&self, outputs: &mut Outputs);
 
+    /// Takes over those of the `parameters` that may change during a run.
+    fn tune(&mut self, parameters: &Parameters);
+
     /// Advances from `t`, counted from the start, by `size` \[s\], and writes the part of the outputs that is the state.
     ///
     /// # Errors
     /// If the state is no longer finite.
-    fn step(
-        &mut self,
-        parameters: &Parameters,
-        inputs: &Inputs,
-        t: f64,
-        size: f64,
-        outputs: &mut Outputs,
-    ) -> Result<()>;
+    fn step(&mut self, inputs: &Inputs, t: f64, size: f64, outputs: &mut Outputs) -> Result<()>;
 
     /// Writes all other outputs at the end of the finished step, at `time`, or at the start.
     ///

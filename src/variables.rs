@@ -33,42 +33,46 @@ pub enum Variability {
     Continuous,
 }
 
-/// The interval of admissible values of a real variable, in SI units.
+/// The admissible values of a real variable, in SI units: all finite ones from the smallest on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bounds {
-    /// Smallest admissible value.
-    pub min: Option<f64>,
-    /// Largest admissible value.
-    pub max: Option<f64>,
-    /// Whether `min` itself is excluded.
-    pub min_excluded: bool,
+    smallest: f64,
 }
 
 impl Bounds {
     /// Any finite value.
-    pub const ANY: Self = Self { min: None, max: None, min_excluded: false };
+    pub const ANY: Self = Self { smallest: f64::MIN };
     /// Zero or more.
-    pub const NON_NEGATIVE: Self = Self { min: Some(0.0), max: None, min_excluded: false };
+    pub const NON_NEGATIVE: Self = Self { smallest: 0.0 };
     /// More than zero.
-    pub const POSITIVE: Self = Self { min: Some(0.0), max: None, min_excluded: true };
+    pub const POSITIVE: Self = Self { smallest: 0.0_f64.next_up() };
 
-    /// Whether `value` is finite and inside the interval.
+    /// Whether `value` is finite and not below the bound.
+    #[inline]
     #[must_use]
     pub fn admit(&self, value: f64) -> bool {
-        value.is_finite()
-            && self.min.is_none_or(|min| value > min || (value == min && !self.min_excluded))
-            && self.max.is_none_or(|max| value <= max)
+        self.smallest <= value && value <= f64::MAX
+    }
+
+    /// The lower bound, if there is one.
+    #[must_use]
+    pub fn min(&self) -> Option<f64> {
+        (*self != Self::ANY).then_some(if self.min_excluded() { 0.0 } else { self.smallest })
+    }
+
+    /// Whether the lower bound itself is excluded.
+    #[must_use]
+    pub fn min_excluded(&self) -> bool {
+        *self == Self::POSITIVE
     }
 }
 
 impl std::fmt::Display for Bounds {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let open = if self.min_excluded { "above" } else { "at least" };
-        match (self.min, self.max) {
-            (None, None) => write!(f, "a finite number"),
-            (Some(min), None) => write!(f, "a finite number, {open} {min}"),
-            (None, Some(max)) => write!(f, "a finite number, at most {max}"),
-            (Some(min), Some(max)) => write!(f, "a number {open} {min} and at most {max}"),
+        let open = if self.min_excluded() { "above" } else { "at least" };
+        match self.min() {
+            None => write!(f, "a finite number"),
+            Some(min) => write!(f, "a finite number, {open} {min}"),
         }
     }
 }

@@ -127,7 +127,7 @@ fn every_model_follows_the_path_in_its_own_prediction() {
                     let mut planner = controller::new(links(number), &parameters, &mut outputs).unwrap();
                     for k in 0..15 {
                         let t = 0.01 * f64::from(k);
-                        planner.step(&parameters, &controller::Inputs::default(), t, 0.01, &mut outputs).unwrap();
+                        planner.step(&controller::Inputs::default(), t, 0.01, &mut outputs).unwrap();
                     }
                     let error = (outputs.predicted_end_effector - outputs.reference).norm();
                     // A single link cannot follow a path in the plane.
@@ -149,7 +149,7 @@ fn the_altitude_of_vertical_thrust_is_that_of_a_rigid_body() {
     let mut planner = controller::new(scenario.structure, parameters, &mut outputs).unwrap();
     for k in 0..20 {
         let t = 0.01 * f64::from(k);
-        planner.step(parameters, &controller::Inputs::default(), t, 0.01, &mut outputs).unwrap();
+        planner.step(&controller::Inputs::default(), t, 0.01, &mut outputs).unwrap();
     }
     let (mass, size, load) = (7.1, 1e-6, -0.9 * 9.81);
     let (mut y, mut v, mut integral) = (0.0, 0.0, 0.0);
@@ -193,7 +193,7 @@ fn interpolated_rates_err_by_a_micrometre_per_second() {
         plant.inputs.rate_command = before;
         plant.inputs.acceleration_command = std::array::from_fn(|i| (now[i] - before[i]) / size);
         plant.step(size);
-        planner.step(&parameters, &controller::Inputs::default(), t, size, &mut commands).unwrap();
+        planner.step(&controller::Inputs::default(), t, size, &mut commands).unwrap();
         before = now;
         velocity_error = velocity_error.max((plant.outputs.end_effector_velocity - commands.reference_velocity).norm());
         position_error = position_error.max((plant.outputs.end_effector - commands.reference).norm());

@@ -131,7 +131,7 @@ fn largest_moment(random: &mut Random, moment_model: MomentModel, discretization
         let (after, impulse) = step.balance(moment_model);
         largest = largest.max(((before + impulse - after) / size).abs());
         before = after;
-        planner.step(&parameters, &controller::Inputs::default(), k as f64 * size, size, &mut outputs).unwrap();
+        planner.step(&controller::Inputs::default(), k as f64 * size, size, &mut outputs).unwrap();
     }
     largest
 }

@@ -42,7 +42,7 @@ fn derivatives_of_the_prediction_are_those_of_its_outputs() {
         let mut controller = controller::new(Structure::DEFAULT, &parameters, &mut outputs).unwrap();
         let mut seen: Vec<([f64; 2], [f64; 3])> = Vec::new();
         for k in 0_u32..2280 {
-            controller.step(&parameters, &inputs, f64::from(k) * STEP, STEP, &mut outputs).unwrap();
+            controller.step(&inputs, f64::from(k) * STEP, STEP, &mut outputs).unwrap();
             seen.push((outputs.predicted_end_effector.into(), outputs.predicted_velocity.into()));
         }
         let rates = controller.rates(&inputs, 2280.0 * STEP);

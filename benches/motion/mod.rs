@@ -22,7 +22,6 @@ pub fn links(links: usize) -> Structure {
 
 /// A controller on its way through the motion.
 pub struct ControllerRun {
-    parameters: Parameters,
     start: Box<dyn Planner>,
     planner: Box<dyn Planner>,
     inputs: controller::Inputs,
@@ -35,7 +34,7 @@ impl ControllerRun {
         let mut outputs = controller::Outputs::default();
         let start = controller::new(structure, &parameters, &mut outputs).unwrap();
         let planner = start.clone();
-        Self { parameters, start, planner, inputs: controller::Inputs::default(), steps: 0, outputs }
+        Self { start, planner, inputs: controller::Inputs::default(), steps: 0, outputs }
     }
 
     pub fn step(&mut self) {
@@ -43,14 +42,13 @@ impl ControllerRun {
             (self.planner, self.steps) = (self.start.clone(), 0);
         }
         let t = f64::from(self.steps) * STEP;
-        self.planner.step(&self.parameters, &self.inputs, t, STEP, &mut self.outputs).unwrap();
+        self.planner.step(&self.inputs, t, STEP, &mut self.outputs).unwrap();
         self.steps += 1;
     }
 }
 
 /// A plant on its way through the motion, under rates that were planned before.
 pub struct PlantRun {
-    parameters: Parameters,
     start: Box<dyn Simulation>,
     simulation: Box<dyn Simulation>,
     inputs: plant::Inputs,
@@ -72,7 +70,7 @@ impl PlantRun {
         let start = plant::new(structure, &parameters).unwrap();
         let simulation = start.clone();
         let (inputs, outputs) = (plant::Inputs::default(), plant::Outputs::default());
-        Self { parameters, start, simulation, inputs, rates, steps: 0, outputs }
+        Self { start, simulation, inputs, rates, steps: 0, outputs }
     }
 
     pub fn step(&mut self) {
@@ -81,7 +79,7 @@ impl PlantRun {
         }
         self.inputs.rate_command = self.rates[self.steps as usize];
         let t = f64::from(self.steps) * STEP;
-        self.simulation.step(&self.parameters, &self.inputs, t, STEP, &mut self.outputs).unwrap();
+        self.simulation.step(&self.inputs, t, STEP, &mut self.outputs).unwrap();
         self.steps += 1;
     }
 

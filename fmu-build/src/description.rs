@@ -128,8 +128,7 @@ fn write_value(xml: &mut Xml, variable: &Variable) -> io::Result<()> {
             .create_element("Real")
             .with_attribute(("unit", unit.name))
             .with_attributes(unit.display.as_ref().map(|display| ("displayUnit", display.name)))
-            .with_attributes(bounds.min.map(|min| ("min", number(min))))
-            .with_attributes(bounds.max.map(|max| ("max", number(max))))
+            .with_attributes(bounds.min().map(|min| ("min", number(min))))
             .with_attributes(started.then(|| ("start", number(start))))
             .with_attributes(variable.derivative_of.map(|position| ("derivative", Cow::from(index(position))))),
         Value::Boolean { start } => {

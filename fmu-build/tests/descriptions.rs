@@ -79,9 +79,8 @@ fn start_values_come_back_bit_by_bit_and_are_admissible() {
                 Value::Real { start, bounds, .. } => {
                     assert_eq!(text.parse::<f64>().unwrap().to_bits(), start.to_bits(), "{}", variable.name);
                     assert!(bounds.admit(start), "{} = {start} must be {bounds}", variable.name);
-                    for (name, bound) in [("min", bounds.min), ("max", bounds.max)] {
-                        assert_eq!(value.attribute(name).map(|text| text.parse().unwrap()), bound);
-                    }
+                    assert_eq!(value.attribute("min").map(|text| text.parse().unwrap()), bounds.min());
+                    assert_eq!(value.attribute("max"), None);
                 }
                 Value::Boolean { start } => assert_eq!(text, start.to_string()),
                 Value::Enumeration { start, options } => {

@@ -41,7 +41,8 @@ pub struct Controller<const N: usize> {
     /// When the last plan was made, from the start, and for how long.
     planned_at: f64,
     horizon: f64,
-    /// The prediction at the end of the planned interval, as long as that is untouched: nothing of it has passed.
+    /// The prediction at the end of the planned interval, as long as that is untouched: nothing of it has passed,
+    /// and the laws are those of the plan.
     planned_end: Box<Prediction<N>>,
     untouched: bool,
 }
@@ -119,11 +120,11 @@ impl<const N: usize> Controller<N> {
         Ok(())
     }
 
-    /// Advances the prediction by `size` \[s\] at the rates sent; `tuned`: by other laws than were planned with.
-    fn predict(&mut self, t: f64, size: f64, tuned: bool) -> Result<()> {
+    /// Advances the prediction by `size` \[s\] at the rates sent.
+    fn predict(&mut self, t: f64, size: f64) -> Result<()> {
         let Self { outset, planned_end: end, .. } = self;
         // The plan has already been there, if the host makes the step that it was made for.
-        if tuned || !self.untouched || size != self.horizon {
+        if !self.untouched || size != self.horizon {
             if self.discretization == Discretization::Euler {
                 outset.predict_euler(t, size, end);
             } else {
@@ -193,17 +194,15 @@ impl<const N: usize> Planner for Controller<N> {
         Ok(())
     }
 
-    fn step(
-        &mut self,
-        parameters: &Parameters,
-        inputs: &Inputs,
-        t: f64,
-        size: f64,
-        outputs: &mut Outputs,
-    ) -> Result<()> {
-        let tuned = self.outset.dynamics.tune(&parameters.autopilot);
+    fn tune(&mut self, parameters: &Parameters) {
+        let others = self.outset.dynamics.tune(&parameters.autopilot);
         self.outset.resolver.tune(parameters);
-        self.predict(t, size, tuned)?;
+        // What was planned with was predicted by other laws.
+        self.untouched &= !others;
+    }
+
+    fn step(&mut self, inputs: &Inputs, t: f64, size: f64, outputs: &mut Outputs) -> Result<()> {
+        self.predict(t, size)?;
         let now = t + size;
         self.grasp_in_time(now);
         let wanted = *self.foreseen.at(now, 0.0, inputs);

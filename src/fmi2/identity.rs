@@ -153,7 +153,7 @@ fn describe_unit(text: &mut String, unit: &Unit) -> fmt::Result {
 fn describe_bounds(text: &mut String, bounds: &Bounds) -> fmt::Result {
     let bits =
         |bound: Option<f64>| bound.map_or_else(|| "none".to_owned(), |value| format!("{:016x}", value.to_bits()));
-    write!(text, " {} {} {}", bits(bounds.min), bounds.min_excluded, bits(bounds.max))
+    write!(text, " {} {} none", bits(bounds.min()), bounds.min_excluded())
 }
 
 /// A GUID that belongs to no unit of a library.

@@ -1,6 +1,7 @@
 //! One instance of a model, as the standard sees it, in safe Rust.
 
 use std::cell::OnceCell;
+use std::fmt::Display;
 
 use super::error::Error;
 use super::identity::Identity;
@@ -46,13 +47,15 @@ struct Situation<M: Model> {
     time: f64,
     /// Whether also the outputs on demand in `data` are those of the present communication point.
     observed: bool,
+    /// Whether parameters have been set that the model has not been told of.
+    retuned: bool,
 }
 
 impl<M: Model> Clone for Situation<M> {
     // One copy of it in the library: it is long, and needed in many places.
     #[inline(never)]
     fn clone(&self) -> Self {
-        let Self { state, data, model, start_time, stop_time, time, observed } = self;
+        let Self { state, data, model, start_time, stop_time, time, observed, retuned } = self;
         Self {
             state: *state,
             data: data.clone(),
@@ -61,6 +64,7 @@ impl<M: Model> Clone for Situation<M> {
             stop_time: *stop_time,
             time: *time,
             observed: *observed,
+            retuned: *retuned,
         }
     }
 }
@@ -75,6 +79,7 @@ impl<M: Model> Situation<M> {
             stop_time: None,
             time: 0.0,
             observed: true,
+            retuned: false,
         }
     }
 
@@ -216,21 +221,23 @@ impl<M: Model> Instance<M> {
         if size == 0.0 {
             return Ok(());
         }
-        let outcome = match &mut self.now.model {
-            Some(model) => model.step(&mut self.now.data, step).map_err(|error| error.to_string()),
-            None => Err("the model is missing".to_owned()),
-        };
-        match outcome {
-            Ok(()) => {
-                self.go_to(step.to());
-                self.now.observed = false;
-                Ok(())
-            }
-            Err(reason) => {
-                self.fail();
-                Err(Error::Step { from, size, reason })
-            }
+        let Situation { model, data, retuned, .. } = &mut self.now;
+        let Some(model) = model else { return Err(self.failed(step, &"the model is missing")) };
+        if std::mem::take(retuned) {
+            model.tune(data);
         }
+        if let Err(error) = model.step(data, step) {
+            return Err(self.failed(step, &error));
+        }
+        self.go_to(step.to());
+        self.now.observed = false;
+        Ok(())
+    }
+
+    #[cold]
+    fn failed(&mut self, CommunicationStep { from, size, .. }: CommunicationStep, reason: &dyn Display) -> Error {
+        self.fail();
+        Error::Step { from, size, reason: reason.to_string() }
     }
 
     fn checked_step(&self, from: f64, size: f64) -> Result<CommunicationStep, Error> {
@@ -299,7 +306,8 @@ impl<M: Model> Instance<M> {
     /// not admissible.
     pub fn set<T: Scalar>(&mut self, references: &[u32], values: &[T]) -> Result<(), Error> {
         self.permit(T::SET)?;
-        let (variables, state, data) = (self.table.variables(), self.now.state, &mut self.now.data);
+        let (variables, state) = (self.table.variables(), self.now.state);
+        let Situation { data, retuned, .. } = &mut self.now;
         for (reference, value) in references.iter().zip(values) {
             let variable = lookup(variables, *reference)?;
             if !settable(variable, state) {
@@ -310,7 +318,9 @@ impl<M: Model> Instance<M> {
             }
         }
         for (reference, value) in references.iter().zip(values) {
-            value.assign(lookup(variables, *reference)?, data);
+            let variable = lookup(variables, *reference)?;
+            *retuned |= variable.causality == Causality::Parameter;
+            value.assign(variable, data);
         }
         if self.now.state.precedes_simulation() && !references.is_empty() {
             self.now.model = None;

@@ -27,7 +27,7 @@ impl CommunicationStep {
 /// A simulation that advances from one communication point to the next.
 ///
 /// The host sees plain data, `Self::Data`: parameters, inputs and outputs, named by [`Model::table`].
-/// Inputs and tunable parameters may change between steps; a step reads them and writes the outputs.
+/// Inputs and tunable parameters may change between steps; a step heeds them and writes the outputs.
 /// Setting an input changes no output before the next step.
 ///
 /// What the simulation remembers beside these data passes by a tape when its state is written or read.
@@ -62,8 +62,12 @@ pub trait Model: Memory + Clone + Send + Sized + 'static {
     /// If the parameters do not go together.
     fn initialize(structure: Self::Structure, data: &mut Self::Data, start_time: f64) -> Result<Self, Self::Error>;
 
-    /// Advances by one communication step: reads inputs and tunable parameters, writes the outputs that are not
-    /// computed on demand.
+    /// Takes over tunable parameters: called before a step if any has been set since the last one.
+    fn tune(&mut self, data: &Self::Data) {
+        let _ = data;
+    }
+
+    /// Advances by one communication step: reads inputs, writes the outputs that are not computed on demand.
     ///
     /// # Errors
     /// If the simulation cannot go on; it is not stepped again then.

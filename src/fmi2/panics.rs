@@ -36,9 +36,12 @@ pub fn silence() {
 /// If it panics: the message. What `action` was changing is then in an unknown state; it is for the
 /// caller not to use it any more.
 pub fn caught<R>(action: impl FnOnce() -> R) -> Result<R, String> {
-    let before = INSIDE.replace(true);
-    let result = panic::catch_unwind(AssertUnwindSafe(action));
-    INSIDE.set(before);
+    let result = INSIDE.with(|inside| {
+        let before = inside.replace(true);
+        let result = panic::catch_unwind(AssertUnwindSafe(action));
+        inside.set(before);
+        result
+    });
     result.map_err(|payload| message(payload.as_ref()))
 }
 

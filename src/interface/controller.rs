@@ -87,9 +87,13 @@ impl Model for ControllerUnit {
         Ok(Self(planner))
     }
 
+    fn tune(&mut self, data: &Data) {
+        self.0.tune(&data.parameters);
+    }
+
     fn step(&mut self, data: &mut Data, step: CommunicationStep) -> Result<(), Error> {
         let t = step.from - step.start_time;
-        self.0.step(&data.parameters, &data.inputs, t, step.size, &mut data.outputs)?;
+        self.0.step(&data.inputs, t, step.size, &mut data.outputs)?;
         if let Err(error) = data.outputs.check(t + step.size) {
             // A failure leaves nothing that is not finite.
             data.outputs = Outputs::default();

@@ -87,9 +87,13 @@ impl Model for PlantUnit {
         Ok(Self(simulation))
     }
 
+    fn tune(&mut self, data: &Data) {
+        self.0.tune(&data.parameters);
+    }
+
     fn step(&mut self, data: &mut Data, step: CommunicationStep) -> Result<(), Error> {
         let t = step.from - step.start_time;
-        self.0.step(&data.parameters, &data.inputs, t, step.size, &mut data.outputs)?;
+        self.0.step(&data.inputs, t, step.size, &mut data.outputs)?;
         // They were for this step only.
         data.inputs.slopes = None;
         Ok(())

@@ -16,7 +16,7 @@ const PER_STEP: f64 = 1.0 / STEP;
 const STEP_UPPER: f64 = f64::from_bits(STEP.to_bits() & !0xffff_ffff);
 const STEP_LOWER: f64 = (STEP - STEP_UPPER) + TAU_REST / COUNT as f64;
 /// What the full turn has beyond the number that stands for it \[rad\].
-const TAU_REST: f64 = 2.449_293_598_294_706_354_5e-16;
+const TAU_REST: f64 = 2.449_293_598_294_706_4e-16;
 /// Angles beyond this are left to the general functions \[rad\].
 const FARTHEST: f64 = 5e4;
 /// A number this large, added and taken away again, rounds to whole numbers, and shows them in its last bits.

@@ -76,15 +76,11 @@ impl<const N: usize> Simulation for Plant<N> {
         outputs.attached = state.held;
     }
 
-    fn step(
-        &mut self,
-        parameters: &Parameters,
-        inputs: &Inputs,
-        t: f64,
-        size: f64,
-        outputs: &mut Outputs,
-    ) -> Result<()> {
+    fn tune(&mut self, parameters: &Parameters) {
         self.dynamics.tune(&parameters.autopilot);
+    }
+
+    fn step(&mut self, inputs: &Inputs, t: f64, size: f64, outputs: &mut Outputs) -> Result<()> {
         self.interval.begin(&self.dynamics, &self.situation, past(&self.finished), size);
         match (self.situation.state.held, inputs.grasp) {
             (false, true) => self.dynamics.grasp(&mut self.situation),

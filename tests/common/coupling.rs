@@ -26,7 +26,8 @@ impl Coupling {
         self.plant.inputs.acceleration_command = self.commands.acceleration_command;
         self.plant.inputs.grasp = self.commands.grasp;
         self.plant.try_step(size)?;
-        self.planner.step(&self.plant.model.parameters, &self.external, t, size, &mut self.commands)
+        self.planner.tune(&self.plant.model.parameters);
+        self.planner.step(&self.external, t, size, &mut self.commands)
     }
 
     #[track_caller]

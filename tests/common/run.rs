@@ -24,7 +24,8 @@ impl Run {
     }
 
     pub fn try_step(&mut self, size: f64) -> uam::Result<()> {
-        self.simulation.step(&self.model.parameters, &self.inputs, self.time, size, &mut self.outputs)?;
+        self.simulation.tune(&self.model.parameters);
+        self.simulation.step(&self.inputs, self.time, size, &mut self.outputs)?;
         self.simulation.observe(self.time + size, &mut self.outputs)?;
         self.time += size;
         Ok(())

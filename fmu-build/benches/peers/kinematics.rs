@@ -148,7 +148,7 @@ pub fn by_library(parameters: &Parameters) -> f64 {
     let inputs = Inputs::default();
     let begin = Instant::now();
     for n in 0..STEPS {
-        controller.step(parameters, &inputs, f64::from(n) * STEP, STEP, &mut outputs).unwrap();
+        controller.step(&inputs, f64::from(n) * STEP, STEP, &mut outputs).unwrap();
     }
     begin.elapsed().as_secs_f64() / f64::from(STEPS)
 }

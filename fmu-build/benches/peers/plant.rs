@@ -131,7 +131,7 @@ fn by_library(motion: &Motion) -> (Place, f64) {
     inputs.rate_command[..3].copy_from_slice(&motion.unwrap_or_default());
     let begin = Instant::now();
     for n in 0..STEPS {
-        plant.step(&parameters, &inputs, f64::from(n) * STEP, STEP, &mut outputs).unwrap();
+        plant.step(&inputs, f64::from(n) * STEP, STEP, &mut outputs).unwrap();
     }
     let elapsed = begin.elapsed().as_secs_f64();
     let mut place = Place::default();

@@ -1,7 +1,7 @@
 //! The tables of a unit's variables and enumerations.
 
 use maud::{Markup, html};
-use uam::variables::{Bounds, Causality, Variability};
+use uam::variables::{Causality, Variability};
 
 use crate::interface::{Enumeration, Interface, Value, Variable};
 
@@ -88,10 +88,7 @@ fn start_of(value: &Value) -> String {
 
 fn allowed(value: &Value) -> String {
     let Value::Real { bounds, .. } = value else { return String::new() };
-    let Bounds { min, max, min_excluded } = *bounds;
-    let lower = min.map(|min| format!("{} {min}", if min_excluded { ">" } else { "≥" }));
-    let upper = max.map(|max| format!("≤ {max}"));
-    lower.into_iter().chain(upper).collect::<Vec<_>>().join(", ")
+    bounds.min().map_or_else(String::new, |min| format!("{} {min}", if bounds.min_excluded() { ">" } else { "≥" }))
 }
 
 fn alternatives(enumeration: &Enumeration) -> Markup {

@@ -130,12 +130,13 @@ impl<M: Model> Situation<M> {
     /// Passes all but the model by a tape.
     fn pass(&mut self, table: &Table<M::Data>, has_model: &mut bool, tape: &mut Tape<'_>) {
         // Without "..": whoever adds a field decides here how it is written.
-        let Self { state, data, model: _, start_time, stop_time, time, observed } = self;
+        let Self { state, data, model: _, start_time, stop_time, time, observed, retuned } = self;
         tape.one_of(state, &State::ALL);
         start_time.pass(tape);
         stop_time.pass(tape);
         time.pass(tape);
         observed.pass(tape);
+        retuned.pass(tape);
         for variable in table.variables() {
             match variable.kind {
                 Kind::Real { at, .. } => at(data, variable.index).pass(tape),
