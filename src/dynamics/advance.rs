@@ -173,13 +173,14 @@ impl<const N: usize> Dynamics<N> {
             return f64::INFINITY;
         }
         if t >= instant(state.samples, interval) - SAME_INSTANT {
-            state.sampled = self.hover_law(&state.pose, &state.velocity, state.integrals, load);
+            let error = load.error(state.pose.y, state.pose.z);
+            state.sampled = self.hover_law(error, &state.velocity, state.integrals, load);
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // times are not negative
             let passed = ((t + SAME_INSTANT) / interval) as u64;
             let samples = passed.max(state.samples) + 1;
             // Samples that a long explicit step has left out count with this one.
             let covered = instant(samples, interval) - instant(state.samples, interval);
-            state.integrals += vec2(state.pose.y - load.altitude, state.pose.z - load.roll) * covered;
+            state.integrals += error * covered;
             state.samples = samples;
         }
         instant(state.samples, interval) - t

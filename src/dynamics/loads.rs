@@ -88,6 +88,12 @@ impl Load {
         self.tip_force.x != 0.0 || self.tip_force.y != 0.0 || self.tip_torque != 0.0
     }
 
+    /// Errors of altitude \[m\] and roll \[rad\].
+    #[inline]
+    pub(super) fn error(&self, altitude: f64, roll: f64) -> Vec2 {
+        vec2(altitude - self.altitude, roll - self.roll)
+    }
+
     /// What acts after the time `t` \[s\] at this `slope`.
     #[cold]
     #[inline(never)]
