@@ -245,7 +245,7 @@ impl<const N: usize> Dynamics<N> {
     #[inline]
     pub(super) fn carried_moment(&self, turn: Turn, node: &Node<N>, load: &Load, support: f64) -> f64 {
         let mut moment = -turn.apply(node.matrix.first).x * self.vehicle.gravity;
-        if load.pushes_arm() || support != 0.0 {
+        if load.pushes_arm() || support.to_bits() != 0 {
             let posture = &node.posture;
             moment += load.tip_torque
                 + cross(turn.apply(posture.end_effector), load.tip_force)
