@@ -86,16 +86,15 @@ impl<const N: usize> Dynamics<N> {
             let piece = if until_sample < left - SAME_INSTANT { until_sample } else { left };
             let length = if piece > longest { piece / (piece / longest).ceil() } else { piece };
             let mut covered = length;
-            self.internal_step(step, length, &scene, node);
+            self.internal_step(step, length, &scene, (&mut flow, node));
             // Right after switching, rounding must not switch back for ever.
-            let within = if stuck { None } else { self.switches_within(step, node, &scene) };
+            let within = if stuck { None } else { self.switches_within(step, (&flow, node), &scene) };
             if let Some(bracket) = within {
                 covered = self.switching_instant(step, bracket, &scene);
-                self.internal_step(step, covered, &scene, node);
+                self.internal_step(step, covered, &scene, (&mut flow, node));
                 state.contact = !state.contact;
             }
             stuck = covered == 0.0;
-            flow = step.to;
             account.made(self, node, loads);
             // The last piece ends the step, whatever the sum of the pieces rounds to.
             elapsed = if length == left && within.is_none() { size } else { elapsed + covered };

@@ -29,13 +29,18 @@ impl<const N: usize> Dynamics<N> {
     }
 
     /// Length of an internal step within which contact switches, or `None` if it lasts, or stays away, all through
-    /// `whole`, the step with the arm at `end` when it is over.
+    /// `whole`, the step that ends with the flow `to` and the arm at `end`.
     #[inline]
-    pub(super) fn switches_within(&self, whole: &Internal<N>, end: &Node<N>, scene: &Scene<'_, N>) -> Option<f64> {
+    pub(super) fn switches_within(
+        &self,
+        whole: &Internal<N>,
+        (to, end): (&Flow, &Node<N>),
+        scene: &Scene<'_, N>,
+    ) -> Option<f64> {
         if !scene.held || self.support.stiffness == 0.0 {
             return None;
         }
-        let Internal { nodes: [begin, _], from, to, rates: [k_1, .., k_4], size, .. } = whole;
+        let Internal { nodes: [begin, _], from, rates: [k_1, .., k_4], size, .. } = whole;
         let margin = self.margin(to, end, scene);
         if margin < -NO_GAP {
             return Some(*size);
@@ -61,9 +66,9 @@ impl<const N: usize> Dynamics<N> {
     #[inline(never)]
     fn margin_after(&self, length: f64, step: &Internal<N>, scene: &Scene<'_, N>) -> f64 {
         let mut step = *step;
-        let mut end = step.nodes[0];
-        self.internal_step(&mut step, length, scene, &mut end);
-        self.margin(&step.to, &end, scene)
+        let (mut to, mut end) = (step.from, step.nodes[0]);
+        self.internal_step(&mut step, length, scene, (&mut to, &mut end));
+        self.margin(&to, &end, scene)
     }
 
     /// Distance \[m\] from switching: positive while the present state of contact lasts.

@@ -8,15 +8,13 @@ use super::law::{Carrier, Flow, Node, Scene, turned};
 use super::{Dynamics, Load, Loads};
 use crate::kinematics::Displacement;
 
-/// An internal step, as far as it is of interest afterwards; only the arm at its end is kept elsewhere.
+/// An internal step, as far as it is of interest afterwards; only its end is kept elsewhere.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Internal<const N: usize> {
     /// The arm at the beginning and in the middle.
     pub nodes: [Node<N>; 2],
     /// At the beginning.
     pub from: Flow,
-    /// At the end.
-    pub to: Flow,
     /// Rates of the flow as the four stages see them.
     pub rates: [Flow; 4],
     /// When it begins, from the beginning of the loads \[s\].
@@ -33,7 +31,6 @@ impl<const N: usize> Internal<N> {
         Self {
             nodes: [*node; 2],
             from: Flow::zeros(),
-            to: Flow::zeros(),
             rates: [Flow::zeros(); 4],
             elapsed: 0.0,
             size: 0.0,
@@ -44,8 +41,14 @@ impl<const N: usize> Internal<N> {
 
 impl<const N: usize> Dynamics<N> {
     /// One step of length `size` under the motion of `scene`, from where `step` says that it begins: flow and its rates
-    /// there, and the arm. The arm at the end is written to `end`, all else to `step`.
-    pub(super) fn internal_step(&self, step: &mut Internal<N>, size: f64, scene: &Scene<'_, N>, end: &mut Node<N>) {
+    /// there, and the arm. Where it ends is written to `to` and `end`, all else to `step`.
+    pub(super) fn internal_step(
+        &self,
+        step: &mut Internal<N>,
+        size: f64,
+        scene: &Scene<'_, N>,
+        (to, end): (&mut Flow, &mut Node<N>),
+    ) {
         let half = 0.5 * size;
         let Scene { motion, held, .. } = scene;
         let [begin, middle] = &mut step.nodes;
@@ -65,8 +68,12 @@ impl<const N: usize> Dynamics<N> {
         self.law(k_3, &after(from, k_2, half), middle, load_2, scene);
         self.law(k_4, &after(from, k_3, size), end, load_4, scene);
         let sixth = size / 6.0;
-        step.to = Flow::from_fn(|i, _| from[i] + (k_1[i] + (k_2[i] + k_3[i]) * 2.0 + k_4[i]) * sixth);
-        turned(&mut step.to, from);
+        let sum = |i: usize| from[i] + (k_1[i] + (k_2[i] + k_3[i]) * 2.0 + k_4[i]) * sixth;
+        // By twos, which spares a fourth of the instructions: the compiler leaves the loop as it is.
+        for i in 0..6 {
+            (to[2 * i], to[2 * i + 1]) = (sum(2 * i), sum(2 * i + 1));
+        }
+        turned(to, from);
     }
 
     /// Hands what the stages of `step` saw at the beginning, in the middle and at the end, where the arm is at `end`, to
@@ -138,8 +145,7 @@ mod tests {
                 step.nodes[0] = node;
                 dynamics.law(&mut step.rates[0], &flow, &node, loads.begin, &scene);
                 step.from = flow;
-                dynamics.internal_step(&mut step, size, &scene, &mut node);
-                flow = step.to;
+                dynamics.internal_step(&mut step, size, &scene, (&mut flow, &mut node));
             }
             flow
         };
