@@ -17,7 +17,7 @@ const LONGEST: f64 = 1.05e-3;
 
 /// Longest internal step times the fastest rate of control or turning: order 4 leaves 1e-12 of the
 /// amplitude there.
-const RESOLUTION: f64 = 0.01;
+pub(super) const RESOLUTION: f64 = 0.01;
 
 /// The same while the system swings on the support with a speed of 1 m/s. There the error in metres counts, which adds
 /// up bounce by bounce; slower swinging stands longer steps, by the order 4 of the method.
