@@ -203,6 +203,8 @@ impl<const N: usize> Vehicle<N> {
     }
 }
 
+// One copy for all numbers of coordinates.
+#[inline(never)]
 fn reach(mount: Vec2, length: &[f64]) -> f64 {
     mount.norm() + length.iter().sum::<f64>()
 }

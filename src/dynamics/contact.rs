@@ -81,7 +81,7 @@ impl<const N: usize> Dynamics<N> {
     #[inline(never)]
     fn margin_after(&self, length: f64, step: &Internal<N>, scene: &Scene<'_, N>) -> f64 {
         let mut step = *step;
-        let (mut to, mut end) = (step.from, step.nodes[0]);
+        let (mut to, mut end) = (Flow::zeros(), step.nodes[0]);
         self.internal_step(&mut step, length, scene, (&mut to, &mut end));
         self.margin(&to, &end, scene)
     }

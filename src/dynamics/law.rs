@@ -195,7 +195,9 @@ impl<const N: usize> Dynamics<N> {
     /// needs no registers saved.
     #[inline(never)]
     fn reduced_law(&self, k: &mut Flow, y: &Flow, node: &Node<N>, load: &Load, scene: &Scene<'_, N>) {
-        self.law_at(k, y, node, self.base_velocity(y, Turn::NONE, node), load, scene);
+        let h = Twist { linear: vec2(y[3], y[4]), angular: y[5] };
+        let v = self.base.reduced_velocity(node.matrix.mass, self.vehicle.uav_inertia, h, h - node.arm);
+        self.law_at(k, y, node, v, load, scene);
     }
 
     /// Rates of the `flow` of a `situation`, for a base that moves as it did just before the present instant.
@@ -245,7 +247,7 @@ impl<const N: usize> Dynamics<N> {
     #[inline]
     pub(super) fn carried_moment(&self, turn: Turn, node: &Node<N>, load: &Load, support: f64) -> f64 {
         let mut moment = -turn.apply(node.matrix.first).x * self.vehicle.gravity;
-        if load.pushes_arm() || support.to_bits() != 0 {
+        if load.pushes_arm() || support != 0.0 {
             let posture = &node.posture;
             moment += load.tip_torque
                 + cross(turn.apply(posture.end_effector), load.tip_force)
