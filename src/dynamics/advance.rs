@@ -61,23 +61,22 @@ impl<const N: usize> Dynamics<N> {
         let (start, momentum) = (state.position, state.momentum);
         node.move_at(motion.rate);
         state.contact = self.touches(&flow, node, state.held);
-        let mut elapsed = 0.0;
+        let mut scene = Scene {
+            loads,
+            elapsed: 0.0,
+            held: state.held,
+            contact: state.contact,
+            sampled: state.sampled,
+            motion: *motion,
+        };
         let mut stuck = false;
         let mut room = None;
-        while elapsed < size {
-            let left = size - elapsed;
-            let scene = Scene {
-                loads,
-                elapsed,
-                held: state.held,
-                contact: state.contact,
-                sampled: state.sampled,
-                motion: motion.after(elapsed),
-            };
+        while scene.elapsed < size {
+            let left = size - scene.elapsed;
             let step = account.next(self, node, loads);
             (step.nodes[0], step.from) = (*node, flow);
-            self.law(&mut step.rates[0], &flow, node, loads.present(elapsed, &mut room), &scene);
-            let longest = self.longest_internal_step(step, motion, state.contact, size);
+            self.law(&mut step.rates[0], &flow, node, loads.present(scene.elapsed, &mut room), &scene);
+            let longest = self.longest_internal_step(step, motion, scene.contact, size);
             let most = MOST_STEPS * longest.min(sample_time);
             if left > most {
                 return Err(Error::StepTooLong { size, most });
@@ -92,19 +91,25 @@ impl<const N: usize> Dynamics<N> {
             if let Some(bracket) = within {
                 covered = self.switching_instant(step, bracket, &scene);
                 self.internal_step(step, covered, &scene, (&mut flow, node));
-                state.contact = !state.contact;
+                scene.contact = !scene.contact;
             }
             stuck = covered == 0.0;
             account.made(self, node, loads);
             // The last piece ends the step, whatever the sum of the pieces rounds to.
-            elapsed = if length == left && within.is_none() { size } else { elapsed + covered };
+            if length == left && within.is_none() {
+                break;
+            }
+            scene.elapsed += covered;
+            scene.motion = motion.after(scene.elapsed);
             until_sample -= covered;
-            if until_sample <= 0.0 && elapsed < size {
+            if until_sample <= 0.0 && scene.elapsed < size {
                 self.settle(state, &flow, node);
-                until_sample = self.sample(state, loads.present(elapsed, &mut room), t + elapsed);
+                until_sample = self.sample(state, loads.present(scene.elapsed, &mut room), t + scene.elapsed);
+                scene.sampled = state.sampled;
                 (flow[6], flow[7]) = (state.integrals.x, state.integrals.y);
             }
         }
+        state.contact = scene.contact;
         state.position = start + motion.way(size);
         if refreshed(t) != refreshed(t + size) {
             let posture = Posture::new(&self.vehicle, &state.position);
