@@ -69,6 +69,7 @@ impl<const N: usize> Dynamics<N> {
             sampled: state.sampled,
             motion: *motion,
         };
+        let turning = self.fastest_turning(motion, size);
         let mut stuck = false;
         let mut room = None;
         while scene.elapsed < size {
@@ -76,7 +77,7 @@ impl<const N: usize> Dynamics<N> {
             let step = account.next(self, node, loads);
             (step.nodes[0], step.from) = (*node, flow);
             self.law(&mut step.rates[0], &flow, node, loads.present(scene.elapsed, &mut room), &scene);
-            let longest = self.longest_internal_step(step, motion, scene.contact, size);
+            let longest = self.longest_internal_step(step, turning, scene.contact);
             let most = MOST_STEPS * longest.min(sample_time);
             if left > most {
                 return Err(Error::StepTooLong { size, most });
@@ -192,26 +193,34 @@ impl<const N: usize> Dynamics<N> {
 
     /// Fastest turning at the rates `rate`, relative to the UAV \[rad/s\].
     pub(super) fn turning(&self, rate: &SVector<f64, N>) -> f64 {
-        let arm = rate.iter().take(self.vehicle.links).map(|rate| rate.abs()).sum::<f64>();
-        match self.vehicle.balancer {
+        let vehicle = &self.vehicle;
+        let arm = (0..N).map(|i| rate[i].abs() * vehicle.revolute[i]).sum::<f64>();
+        match vehicle.balancer {
             // Nobody sees a disc turn.
             Some(Balancer::Element(body)) if body.first != 0.0 => arm.max(rate[N - 1].abs()),
             _ => arm,
         }
     }
 
-    /// The longest internal step that resolves autopilot, support and the turning of the links.
-    fn longest_internal_step(&self, step: &Internal<N>, motion: &Motion<N>, contact: bool, size: f64) -> f64 {
+    /// Fastest turning in a step of length `size` under the imposed `motion` \[rad/s\].
+    #[inline(never)]
+    fn fastest_turning(&self, motion: &Motion<N>, size: f64) -> f64 {
+        let turning = self.turning(&motion.rate);
+        if motion.is_steady() { turning } else { turning.max(self.turning(&motion.rate_after(size))) }
+    }
+
+    /// The longest internal step that resolves autopilot, support and the `turning` of the links.
+    #[inline]
+    fn longest_internal_step(&self, step: &Internal<N>, turning: f64, contact: bool) -> f64 {
+        let fastest = (turning + TUMBLING * step.rates[0][2].abs()).max(self.control_rate);
+        let longest = LONGEST.min(RESOLUTION / fastest);
+        if contact { longest.min(self.longest_on_support(step)) } else { longest }
+    }
+
+    /// The longest internal step that resolves how the system swings on the support.
+    #[inline(never)]
+    fn longest_on_support(&self, step: &Internal<N>) -> f64 {
         let (vehicle, Internal { nodes: [node, _], from: flow, rates: [k_1, ..], .. }) = (&self.vehicle, step);
-        let mut turning = self.turning(&motion.rate);
-        if !motion.is_steady() {
-            turning = turning.max(self.turning(&motion.rate_after(size)));
-        }
-        turning += TUMBLING * k_1[2].abs();
-        let longest = LONGEST.min(RESOLUTION / turning.max(self.control_rate));
-        if !contact {
-            return longest;
-        }
         // The support feels the mass of the system and, at a lever, its inertia.
         let lever = node.posture.payload.x;
         let mobility = 1.0 / node.matrix.mass + lever * lever / vehicle.uav_inertia;
@@ -219,7 +228,7 @@ impl<const N: usize> Dynamics<N> {
         let gap_rate = self.gap_rate(self.arm_turn(flow), node, &k_1.fixed_rows::<3>(0).into());
         let speed = gap_rate.abs() + k_1[4].abs() / (node.matrix.mass * swinging);
         let resolution = (SUPPORT_RESOLUTION / speed.sqrt().sqrt()).min(COARSEST_SUPPORT_RESOLUTION);
-        longest.min(resolution / swinging)
+        resolution / swinging
     }
 }
 

@@ -41,32 +41,46 @@ impl<const N: usize> Dynamics<N> {
         if !scene.held || self.support.stiffness == 0.0 {
             return None;
         }
-        let Internal { nodes: [begin, _], from, rates: [k_1, .., k_4], size, .. } = whole;
         let margin = self.margin(to, end, scene);
         if margin < -NO_GAP {
-            return Some(*size);
+            return Some(whole.size);
         }
         // Both ends lie on the same side; in between there may be a way across and back, but not a long one.
-        let start = self.margin(from, begin, scene).max(0.0);
-        let way = self.longest_way([k_1, k_4], *size);
-        if start > way && margin > way {
+        let start = self.margin(&whole.from, &whole.nodes[0], scene);
+        let dip = self.deepest_dip(&whole.rates, whole.size);
+        if start > dip && margin > dip {
             return None;
         }
+        self.dips_within(whole, (to, end), [start, margin], scene)
+    }
+
+    /// Length of an internal step at whose end the `whole` one has crossed the support, to come back: its margins at both
+    /// ends are positive.
+    #[inline(never)]
+    fn dips_within(
+        &self,
+        whole: &Internal<N>,
+        (to, end): (&Flow, &Node<N>),
+        [start, margin]: [f64; 2],
+        scene: &Scene<'_, N>,
+    ) -> Option<f64> {
+        let Internal { nodes: [begin, _], from, rates: [k_1, .., k_4], size, .. } = whole;
         let rate = |flow: &Flow, k: &Flow, node: &Node<N>| {
             scene.side() * self.gap_rate(self.arm_turn(flow), node, &k.fixed_rows::<3>(0).into())
         };
-        let dip = lowest([start, margin], [rate(from, k_1, begin), rate(to, k_4, end)], *size)?;
+        let dip = lowest([start.max(0.0), margin], [rate(from, k_1, begin), rate(to, k_4, end)], *size)?;
         (self.margin_after(dip, whole, scene) < -NO_GAP).then_some(dip)
     }
 
-    /// More than the payload can cover in an internal step of length `size` with these rates of the flow at its ends \[m\].
-    ///
-    /// Away from the support it spares the motion of the payload, a fourteenth of a whole step.
+    /// More than the margin can dip below its smaller end in an internal step of length `size` with these `rates` of the
+    /// flow \[m\]. Away from the support it spares the velocities of the payload, a twentieth of the whole step.
     #[inline]
-    fn longest_way(&self, ends: [&Flow; 2], size: f64) -> f64 {
-        // By its length an internal step bounds the turning of the links, and the UAV's at its beginning.
-        let turning = size * ends[1][2].abs() + 2.0 * RESOLUTION;
-        size * (ends[0][1].abs() + ends[1][1].abs()) + turning * self.vehicle.payload_reach
+    fn deepest_dip(&self, [k_1, .., k_4]: &[Flow; 4], size: f64) -> f64 {
+        // An internal step is so short that the links, and the UAV as at its beginning, turn no farther than this.
+        let turning = 2.0 * RESOLUTION + k_4[2].abs() * size;
+        let way = (k_1[1].abs() + k_4[1].abs()) * size + turning * self.vehicle.payload_reach;
+        // A cubic dips by 4/27 of its slopes at both ends.
+        0.15 * way
     }
 
     /// The instant within the internal `step`, or one of length `size` with the same beginning, at which contact switches.

@@ -160,13 +160,7 @@ impl<const N: usize> Dynamics<N> {
     /// Thrust \[N\] and torque \[N m\], without what holds an ideal base, and the errors that a continuous autopilot
     /// integrates.
     #[inline]
-    pub(super) fn control(
-        &self,
-        y: &Flow,
-        velocity: &Vector3<f64>,
-        load: &Load,
-        scene: &Scene<'_, N>,
-    ) -> (Vec2, Vec2) {
+    pub(super) fn control(&self, y: &Flow, velocity: &Vector3<f64>, load: &Load, scene: &Scene<'_, N>) -> (Vec2, Vec2) {
         if self.continuous {
             let error = load.error(y[1], y[2]);
             return (self.hover_law(error, velocity, vec2(y[6], y[7]), load), error);

@@ -28,14 +28,7 @@ pub(super) struct Internal<const N: usize> {
 impl<const N: usize> Internal<N> {
     /// None yet; `node`: any arm.
     pub fn none(node: &Node<N>) -> Self {
-        Self {
-            nodes: [*node; 2],
-            from: Flow::zeros(),
-            rates: [Flow::zeros(); 4],
-            elapsed: 0.0,
-            size: 0.0,
-            held: false,
-        }
+        Self { nodes: [*node; 2], from: Flow::zeros(), rates: [Flow::zeros(); 4], elapsed: 0.0, size: 0.0, held: false }
     }
 }
 
