@@ -55,7 +55,7 @@ impl<const N: usize> Dynamics<N> {
     ) -> Result<Impulse> {
         // A sample still sees the velocities before the jump of the rates.
         let mut until_sample = self.sample(&mut situation.state, loads.begin, t);
-        let sample_time = if until_sample.is_finite() { self.autopilot.sample_time } else { f64::INFINITY };
+        let sample_time = if until_sample < f64::INFINITY { self.autopilot.sample_time } else { f64::INFINITY };
         let mut flow = situation.flow(self.base);
         let Situation { state, turn, node } = situation;
         let (start, momentum) = (state.position, state.momentum);
@@ -78,7 +78,7 @@ impl<const N: usize> Dynamics<N> {
             (step.nodes[0], step.from) = (*node, flow);
             self.law(&mut step.rates[0], &flow, node, loads.present(scene.elapsed, &mut room), &scene);
             let longest = self.longest_internal_step(step, turning, scene.contact);
-            let most = MOST_STEPS * longest.min(sample_time);
+            let most = MOST_STEPS * if sample_time < longest { sample_time } else { longest };
             if left > most {
                 return Err(Error::StepTooLong { size, most });
             }
@@ -212,7 +212,8 @@ impl<const N: usize> Dynamics<N> {
     /// The longest internal step that resolves autopilot, support and the `turning` of the links.
     #[inline]
     fn longest_internal_step(&self, step: &Internal<N>, turning: f64, contact: bool) -> f64 {
-        let fastest = (turning + TUMBLING * step.rates[0][2].abs()).max(self.control_rate);
+        let turning = turning + TUMBLING * step.rates[0][2].abs();
+        let fastest = if turning > self.control_rate { turning } else { self.control_rate };
         let longest = LONGEST.min(RESOLUTION / fastest);
         if contact { longest.min(self.longest_on_support(step)) } else { longest }
     }
