@@ -1,5 +1,7 @@
 //! The right-hand side: rates of pose, momentum and autopilot integrals.
 
+use std::ops::Range;
+
 use nalgebra::{SVector, Vector3};
 
 use super::{Dynamics, Load, Loads, Motion, Situation, State, in_inertial_frame};
@@ -19,6 +21,9 @@ use crate::vehicle::Vehicle;
 /// entries collect the impulses of all but the carriage, so that p_y and K less the entries is what the
 /// carriage gave.
 pub(super) type Flow = SVector<f64, 12>;
+
+/// The entries on which its rates depend: all but x and the impulses.
+pub(super) const SEEN: Range<usize> = 1..10;
 
 /// The turn of the UAV.
 #[inline]

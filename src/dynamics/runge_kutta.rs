@@ -4,7 +4,7 @@
 //! cheap. Methods of order 6 need twice as many instants; at the steps of a millisecond that a
 //! communication with a controller asks for, order 4 already leaves nothing but rounding.
 
-use super::law::{Carrier, Flow, Node, Scene, turned};
+use super::law::{Carrier, Flow, Node, SEEN, Scene, turned};
 use super::{Dynamics, Load, Loads};
 use crate::kinematics::Displacement;
 
@@ -94,10 +94,14 @@ impl<const N: usize> Dynamics<N> {
     }
 }
 
-/// Where `flow` is after the time `t` at the rates `k`.
+/// Where `flow` is after the time `t` at the rates `k`, as far as the law sees it.
 #[inline]
 fn after(flow: &Flow, k: &Flow, t: f64) -> Flow {
-    Flow::from_fn(|i, _| flow[i] + k[i] * t)
+    let mut to = Flow::zeros();
+    for i in SEEN {
+        to[i] = flow[i] + k[i] * t;
+    }
+    to
 }
 
 #[inline]
