@@ -156,3 +156,56 @@ pub(super) fn lowest([start, end]: [f64; 2], [down, up]: [f64; 2], size: f64) ->
     let value = start + s * (c1 + s * (c2 + s * c3));
     (s > 0.0 && s < 1.0 && value < 0.0).then_some(s * size)
 }
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::FRAC_PI_2;
+
+    use super::*;
+    use crate::defaults::default_parameters;
+    use crate::dynamics::advance::TUMBLING;
+    use crate::dynamics::{Load, Loads, Situation, State};
+    use crate::parameters::{BaseModel, Structure};
+
+    /// No cubic with the slopes of the real margin dips deeper, whatever moves the payload, which may be behind its joint:
+    /// links on a heavy UAV, its momentum, or a torque on it.
+    #[test]
+    fn no_dip_is_deeper_than_the_deepest() {
+        for com in [2.0, -2.0] {
+            let mut parameters = default_parameters(Structure::DEFAULT);
+            parameters.payload.com = com;
+            (parameters.joints[0].start, parameters.joints[1].start, parameters.joints[2].start) =
+                (FRAC_PI_2, 0.0, 0.0);
+            (parameters.uav.mass, parameters.uav.inertia) = (1e4, 1e4);
+            let dynamics = Dynamics::<3>::new(Structure::DEFAULT, &parameters, BaseModel::Full).unwrap();
+            let start = dynamics.start(&parameters).state;
+            for momentum in [[0.0; 3], [0.0, 2e5, 0.0], [0.0, 0.0, 1e5], [1e5, -3e5, -5e4]] {
+                for rate in [[0.0; 3], [0.5, 0.0, 0.0], [20.0, 0.0, 0.0], [0.0, 0.0, -15.0], [8.0, -8.0, 8.0]] {
+                    for base_torque in [0.0, 1e9] {
+                        let state = State { held: true, rate: rate.into(), momentum: momentum.into(), ..start };
+                        check(&dynamics, &dynamics.situation(state), &Load { base_torque, ..Load::NONE });
+                    }
+                }
+            }
+        }
+    }
+
+    fn check(dynamics: &Dynamics<3>, start: &Situation<3>, load: &Load) {
+        let loads = Loads { begin: load, slope: None };
+        let scene = Scene { loads: &loads, ..Dynamics::scene(&start.state) };
+        let (node, from) = (&start.node, &start.flow(BaseModel::Full));
+        let mut step = Internal::none(node);
+        step.from = *from;
+        dynamics.law(&mut step.rates[0], from, node, load, &scene);
+        let turning = dynamics.turning(&node.rate) + TUMBLING * step.rates[0][2].abs();
+        let size = RESOLUTION / turning.max(10.0);
+        let (mut to, mut end) = (*from, *node);
+        dynamics.internal_step(&mut step, size, &scene, (&mut to, &mut end));
+        let slope = |flow: &Flow, k: &Flow, node: &Node<3>| {
+            dynamics.gap_rate(dynamics.arm_turn(flow), node, &k.fixed_rows::<3>(0).into()).abs() * size
+        };
+        let dip = 4.0 / 27.0 * (slope(from, &step.rates[0], node) + slope(&to, &step.rates[3], &end));
+        let deepest = dynamics.deepest_dip(&step.rates, size);
+        assert!(dip <= deepest, "{dip} > {deepest}: {:?}, {from:?}, {load:?}", node.rate);
+    }
+}
