@@ -85,7 +85,7 @@ impl Load {
     /// Whether there is any force or torque on the end effector.
     #[inline]
     pub(super) fn pushes_arm(&self) -> bool {
-        // By bits, in a third of the instructions: that -0 counts does no harm.
+        // By bits, in half of the instructions: that -0 counts does no harm.
         self.tip_force.x.to_bits() | self.tip_force.y.to_bits() | self.tip_torque.to_bits() != 0
     }
 

@@ -62,7 +62,7 @@ impl<const N: usize> Dynamics<N> {
         self.law(k_4, &after(from, k_3, size), end, load_4, scene);
         let sixth = size / 6.0;
         let sum = |i: usize| from[i] + (k_1[i] + (k_2[i] + k_3[i]) * 2.0 + k_4[i]) * sixth;
-        // By twos, which spares a fourth of the instructions: the compiler leaves the loop as it is.
+        // By twos, which spares a fifth of the instructions: the compiler leaves the loop as it is.
         for i in 0..6 {
             (to[2 * i], to[2 * i + 1]) = (sum(2 * i), sum(2 * i + 1));
         }
