@@ -105,6 +105,8 @@ pub struct Vehicle<const N: usize> {
     pub payload_mass: f64,
     /// Distance of the held payload from the last joint \[m\].
     pub payload_com: f64,
+    /// Largest distance of the held payload from any joint, and from the UAV's centre of mass \[m\].
+    pub payload_reach: f64,
     empty: Masses<N>,
     loaded: Masses<N>,
 }
@@ -146,6 +148,7 @@ impl<const N: usize> Vehicle<N> {
                 found: structure.to_string(),
             });
         }
+        let mount = vec2(parameters.mount.x, parameters.mount.y);
         let payload = &parameters.payload;
         let mut empty = [Body::NOTHING; N];
         let mut length = [0.0; N];
@@ -163,11 +166,12 @@ impl<const N: usize> Vehicle<N> {
             gravity: parameters.gravity,
             uav_mass: parameters.uav.mass,
             uav_inertia: parameters.uav.inertia,
-            mount: vec2(parameters.mount.x, parameters.mount.y),
+            mount,
             length,
             balancer,
             payload_mass: payload.mass,
             payload_com: payload.com,
+            payload_reach: reach(mount, &length) + payload.com.abs(),
             empty: Masses::new(empty, &length, others),
             loaded: Masses::new(loaded, &length, others),
         })
@@ -195,6 +199,12 @@ impl<const N: usize> Vehicle<N> {
     /// Largest distance of a point of the stretched arm from the UAV's centre of mass \[m\].
     #[must_use]
     pub fn reach(&self) -> f64 {
-        self.mount.norm() + self.length.iter().sum::<f64>()
+        reach(self.mount, &self.length)
     }
+}
+
+// One copy for all numbers of coordinates.
+#[inline(never)]
+fn reach(mount: Vec2, length: &[f64]) -> f64 {
+    mount.norm() + length.iter().sum::<f64>()
 }

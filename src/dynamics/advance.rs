@@ -16,7 +16,7 @@ const LONGEST: f64 = 1.05e-3;
 
 /// Longest internal step times the fastest rate of control or turning: order 4 leaves 1e-12 of the
 /// amplitude there.
-const RESOLUTION: f64 = 0.01;
+pub(super) const RESOLUTION: f64 = 0.01;
 
 /// The same while the system swings on the support with a speed of 1 m/s. There the error in metres counts, which adds
 /// up bounce by bounce; slower swinging stands longer steps, by the order 4 of the method.
@@ -54,30 +54,30 @@ impl<const N: usize> Dynamics<N> {
     ) -> Result<Impulse> {
         // A sample still sees the velocities before the jump of the rates.
         let mut until_sample = self.sample(&mut situation.state, loads.begin, t);
-        let sample_time = if until_sample.is_finite() { self.autopilot.sample_time } else { f64::INFINITY };
+        let sample_time = if until_sample < f64::INFINITY { self.autopilot.sample_time } else { f64::INFINITY };
         let mut flow = situation.flow(self.base);
         let Situation { state, turn, node } = situation;
         let (start, momentum) = (state.position, state.momentum);
         node.move_at(motion.rate);
         state.contact = self.touches(&flow, node, state.held);
-        let mut elapsed = 0.0;
+        let mut scene = Scene {
+            loads,
+            elapsed: 0.0,
+            held: state.held,
+            contact: state.contact,
+            sampled: state.sampled,
+            motion: *motion,
+        };
+        let turning = self.fastest_turning(motion, size);
         let mut stuck = false;
         let mut room = None;
-        while elapsed < size {
-            let left = size - elapsed;
-            let scene = Scene {
-                loads,
-                elapsed,
-                held: state.held,
-                contact: state.contact,
-                sampled: state.sampled,
-                motion: motion.after(elapsed),
-            };
+        while scene.elapsed < size {
+            let left = size - scene.elapsed;
             let step = account.next(self, node, loads);
             (step.nodes[0], step.from) = (*node, flow);
-            self.law(&mut step.rates[0], &flow, node, loads.present(elapsed, &mut room), &scene);
-            let longest = self.longest_internal_step(step, motion, state.contact, size);
-            let most = MOST_STEPS * longest.min(sample_time);
+            self.law(&mut step.rates[0], &flow, node, loads.present(scene.elapsed, &mut room), &scene);
+            let longest = self.longest_internal_step(step, turning, scene.contact);
+            let most = MOST_STEPS * if sample_time < longest { sample_time } else { longest };
             if left > most {
                 return Err(Error::StepTooLong { size, most });
             }
@@ -85,26 +85,31 @@ impl<const N: usize> Dynamics<N> {
             let piece = if until_sample < left - SAME_INSTANT { until_sample } else { left };
             let length = if piece > longest { piece / (piece / longest).ceil() } else { piece };
             let mut covered = length;
-            self.internal_step(step, length, &scene, node);
+            self.internal_step(step, length, &scene, (&mut flow, node));
             // Right after switching, rounding must not switch back for ever.
-            let within = if stuck { None } else { self.switches_within(step, node, &scene) };
+            let within = if stuck { None } else { self.switches_within(step, (&flow, node), &scene) };
             if let Some(bracket) = within {
                 covered = self.switching_instant(step, bracket, &scene);
-                self.internal_step(step, covered, &scene, node);
-                state.contact = !state.contact;
+                self.internal_step(step, covered, &scene, (&mut flow, node));
+                scene.contact = !scene.contact;
             }
             stuck = covered == 0.0;
-            flow = step.to;
             account.made(self, node, loads);
             // The last piece ends the step, whatever the sum of the pieces rounds to.
-            elapsed = if length == left && within.is_none() { size } else { elapsed + covered };
+            if length == left && within.is_none() {
+                break;
+            }
+            scene.elapsed += covered;
+            scene.motion = motion.after(scene.elapsed);
             until_sample -= covered;
-            if until_sample <= 0.0 && elapsed < size {
+            if until_sample <= 0.0 && scene.elapsed < size {
                 self.settle(state, &flow, node);
-                until_sample = self.sample(state, loads.present(elapsed, &mut room), t + elapsed);
+                until_sample = self.sample(state, loads.present(scene.elapsed, &mut room), t + scene.elapsed);
+                scene.sampled = state.sampled;
                 (flow[6], flow[7]) = (state.integrals.x, state.integrals.y);
             }
         }
+        state.contact = scene.contact;
         state.position = start + motion.way(size);
         if refreshed(t) != refreshed(t + size) {
             node.take(&self.vehicle, &state.position, state.held, &motion.rate_after(size));
@@ -171,13 +176,14 @@ impl<const N: usize> Dynamics<N> {
             return f64::INFINITY;
         }
         if t >= instant(state.samples, interval) - SAME_INSTANT {
-            state.sampled = self.hover_law(&state.pose, &state.velocity, state.integrals, load);
+            let error = load.error(state.pose.y, state.pose.z);
+            state.sampled = self.hover_law(error, &state.velocity, state.integrals, load);
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // times are not negative
             let passed = ((t + SAME_INSTANT) / interval) as u64;
             let samples = passed.max(state.samples) + 1;
             // Samples that a long explicit step has left out count with this one.
             let covered = instant(samples, interval) - instant(state.samples, interval);
-            state.integrals += vec2(state.pose.y - load.altitude, state.pose.z - load.roll) * covered;
+            state.integrals += error * covered;
             state.samples = samples;
         }
         instant(state.samples, interval) - t
@@ -185,26 +191,35 @@ impl<const N: usize> Dynamics<N> {
 
     /// Fastest turning at the rates `rate`, relative to the UAV \[rad/s\].
     pub(super) fn turning(&self, rate: &SVector<f64, N>) -> f64 {
-        let arm = rate.iter().take(self.vehicle.links).map(|rate| rate.abs()).sum::<f64>();
-        match self.vehicle.balancer {
+        let vehicle = &self.vehicle;
+        let arm = (0..N).map(|i| rate[i].abs() * vehicle.revolute[i]).sum::<f64>();
+        match vehicle.balancer {
             // Nobody sees a disc turn.
             Some(Balancer::Element(body)) if body.first != 0.0 => arm.max(rate[N - 1].abs()),
             _ => arm,
         }
     }
 
-    /// The longest internal step that resolves autopilot, support and the turning of the links.
-    fn longest_internal_step(&self, step: &Internal<N>, motion: &Motion<N>, contact: bool, size: f64) -> f64 {
+    /// Fastest turning in a step of length `size` under the imposed `motion` \[rad/s\].
+    #[inline(never)]
+    fn fastest_turning(&self, motion: &Motion<N>, size: f64) -> f64 {
+        let turning = self.turning(&motion.rate);
+        if motion.is_steady() { turning } else { turning.max(self.turning(&motion.rate_after(size))) }
+    }
+
+    /// The longest internal step that resolves autopilot, support and the `turning` of the links.
+    #[inline]
+    fn longest_internal_step(&self, step: &Internal<N>, turning: f64, contact: bool) -> f64 {
+        let turning = turning + TUMBLING * step.rates[0][2].abs();
+        let fastest = if turning > self.control_rate { turning } else { self.control_rate };
+        let longest = LONGEST.min(RESOLUTION / fastest);
+        if contact { longest.min(self.longest_on_support(step)) } else { longest }
+    }
+
+    /// The longest internal step that resolves how the system swings on the support.
+    #[inline(never)]
+    fn longest_on_support(&self, step: &Internal<N>) -> f64 {
         let (vehicle, Internal { nodes: [node, _], from: flow, rates: [k_1, ..], .. }) = (&self.vehicle, step);
-        let mut turning = self.turning(&motion.rate);
-        if !motion.is_steady() {
-            turning = turning.max(self.turning(&motion.rate_after(size)));
-        }
-        turning += TUMBLING * k_1[2].abs();
-        let longest = LONGEST.min(RESOLUTION / turning.max(self.control_rate));
-        if !contact {
-            return longest;
-        }
         // The support feels the mass of the system and, at a lever, its inertia.
         let lever = node.posture.payload.x;
         let mobility = 1.0 / node.matrix.mass + lever * lever / vehicle.uav_inertia;
@@ -212,7 +227,7 @@ impl<const N: usize> Dynamics<N> {
         let gap_rate = self.gap_rate(self.arm_turn(flow), node, &k_1.fixed_rows::<3>(0).into());
         let speed = gap_rate.abs() + k_1[4].abs() / (node.matrix.mass * swinging);
         let resolution = (SUPPORT_RESOLUTION / speed.sqrt().sqrt()).min(COARSEST_SUPPORT_RESOLUTION);
-        longest.min(resolution / swinging)
+        resolution / swinging
     }
 }
 

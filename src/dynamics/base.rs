@@ -40,7 +40,7 @@ impl BaseModel {
     /// The same for the models that neglect something; `left` = `h` - `arm`. One copy for all numbers of coordinates,
     /// and out of the way of the full model.
     #[inline(never)]
-    fn reduced_velocity(self, mass: f64, inertia: f64, h: Twist, left: Twist) -> Twist {
+    pub(super) fn reduced_velocity(self, mass: f64, inertia: f64, h: Twist, left: Twist) -> Twist {
         let y = match self {
             Self::Ideal => return Twist { linear: vec2(left.linear.x / mass, 0.0), angular: 0.0 },
             Self::HorizontalThrust => 0.0,

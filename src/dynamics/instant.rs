@@ -39,10 +39,10 @@ impl<const N: usize> Dynamics<N> {
         let scene = Self::scene(state);
         let mut rate = Flow::zeros();
         self.law_at(&mut rate, &flow, &situation.node, situation.base(), load, &scene);
-        let thrust = self.control(&flow, &state.velocity, load, &scene).x;
+        let (control, _) = self.control(&flow, &state.velocity, load, &scene);
         let base = self.base_acceleration(situation, self.loads_at_end(situation, &rate), slope);
         let acceleration = in_inertial_frame(situation.turn, base);
-        Instant { acceleration, control: vec2(thrust, rate[10]), support: rate[11] }
+        Instant { acceleration, control: vec2(control.x, rate[10]), support: rate[11] }
     }
 
     /// Force on the whole system and moment about the UAV's centre of mass in `situation`, where `rate` is the rate of

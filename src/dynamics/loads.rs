@@ -85,7 +85,14 @@ impl Load {
     /// Whether there is any force or torque on the end effector.
     #[inline]
     pub(super) fn pushes_arm(&self) -> bool {
-        self.tip_force.x != 0.0 || self.tip_force.y != 0.0 || self.tip_torque != 0.0
+        // By bits, in half of the instructions: that -0 counts does no harm.
+        self.tip_force.x.to_bits() | self.tip_force.y.to_bits() | self.tip_torque.to_bits() != 0
+    }
+
+    /// Errors of altitude \[m\] and roll \[rad\].
+    #[inline]
+    pub(super) fn error(&self, altitude: f64, roll: f64) -> Vec2 {
+        vec2(altitude - self.altitude, roll - self.roll)
     }
 
     /// What acts after the time `t` \[s\] at this `slope`.

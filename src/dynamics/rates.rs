@@ -2,7 +2,7 @@
 
 use nalgebra::{SVector, Vector3};
 
-use super::{Dynamics, Load, Loads, Situation, in_inertial_frame};
+use super::{Dynamics, Loads, Situation, in_inertial_frame};
 use crate::autopilot::AutopilotMode;
 use crate::momentum::{Twist, inertial_load, tip_acceleration};
 use crate::planar::{Vec2, cross, vec2};
@@ -55,9 +55,8 @@ impl<const N: usize> Dynamics<N> {
         match self.autopilot.mode {
             AutopilotMode::Pid if self.continuous => {
                 let (altitude, roll) = (&self.autopilot.altitude, &self.autopilot.roll);
-                let Load { altitude: wanted, roll: wanted_roll, .. } = loads.begin;
-                let (mut error, mut error_rate) =
-                    (vec2(state.pose.y - wanted, state.pose.z - wanted_roll), vec2(state.velocity.y, state.velocity.z));
+                let mut error = loads.begin.error(state.pose.y, state.pose.z);
+                let mut error_rate = vec2(state.velocity.y, state.velocity.z);
                 let mut rate = Vec2::zeros();
                 if let Some(slope) = loads.slope {
                     let moving = vec2(slope.altitude, slope.roll);

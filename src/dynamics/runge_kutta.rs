@@ -4,19 +4,17 @@
 //! cheap. Methods of order 6 need twice as many instants; at the steps of a millisecond that a
 //! communication with a controller asks for, order 4 already leaves nothing but rounding.
 
-use super::law::{Carrier, Flow, Node, Scene, turned};
+use super::law::{Carrier, Flow, Node, SEEN, Scene, turned};
 use super::{Dynamics, Load, Loads};
 use crate::kinematics::Displacement;
 
-/// An internal step, as far as it is of interest afterwards; only the arm at its end is kept elsewhere.
+/// An internal step, as far as it is of interest afterwards; only its end is kept elsewhere.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Internal<const N: usize> {
     /// The arm at the beginning and in the middle.
     pub nodes: [Node<N>; 2],
     /// At the beginning.
     pub from: Flow,
-    /// At the end.
-    pub to: Flow,
     /// Rates of the flow as the four stages see them.
     pub rates: [Flow; 4],
     /// When it begins, from the beginning of the loads \[s\].
@@ -30,22 +28,20 @@ pub(super) struct Internal<const N: usize> {
 impl<const N: usize> Internal<N> {
     /// None yet; `node`: any arm.
     pub fn none(node: &Node<N>) -> Self {
-        Self {
-            nodes: [*node; 2],
-            from: Flow::zeros(),
-            to: Flow::zeros(),
-            rates: [Flow::zeros(); 4],
-            elapsed: 0.0,
-            size: 0.0,
-            held: false,
-        }
+        Self { nodes: [*node; 2], from: Flow::zeros(), rates: [Flow::zeros(); 4], elapsed: 0.0, size: 0.0, held: false }
     }
 }
 
 impl<const N: usize> Dynamics<N> {
     /// One step of length `size` under the motion of `scene`, from where `step` says that it begins: flow and its rates
-    /// there, and the arm. The arm at the end is written to `end`, all else to `step`.
-    pub(super) fn internal_step(&self, step: &mut Internal<N>, size: f64, scene: &Scene<'_, N>, end: &mut Node<N>) {
+    /// there, and the arm. Where it ends is written to `to` and `end`, all else to `step`.
+    pub(super) fn internal_step(
+        &self,
+        step: &mut Internal<N>,
+        size: f64,
+        scene: &Scene<'_, N>,
+        (to, end): (&mut Flow, &mut Node<N>),
+    ) {
         let half = 0.5 * size;
         let Scene { motion, held, .. } = scene;
         let [begin, middle] = &mut step.nodes;
@@ -65,8 +61,12 @@ impl<const N: usize> Dynamics<N> {
         self.law(k_3, &after(from, k_2, half), middle, load_2, scene);
         self.law(k_4, &after(from, k_3, size), end, load_4, scene);
         let sixth = size / 6.0;
-        step.to = Flow::from_fn(|i, _| from[i] + (k_1[i] + (k_2[i] + k_3[i]) * 2.0 + k_4[i]) * sixth);
-        turned(&mut step.to, from);
+        let sum = |i: usize| from[i] + (k_1[i] + (k_2[i] + k_3[i]) * 2.0 + k_4[i]) * sixth;
+        // By twos, which spares a fifth of the instructions: the compiler leaves the loop as it is.
+        for i in 0..6 {
+            (to[2 * i], to[2 * i + 1]) = (sum(2 * i), sum(2 * i + 1));
+        }
+        turned(to, from);
     }
 
     /// Hands what the stages of `step` saw at the beginning, in the middle and at the end, where the arm is at `end`, to
@@ -94,10 +94,14 @@ impl<const N: usize> Dynamics<N> {
     }
 }
 
-/// Where `flow` is after the time `t` at the rates `k`.
+/// Where `flow` is after the time `t` at the rates `k`, as far as the law sees it.
 #[inline]
 fn after(flow: &Flow, k: &Flow, t: f64) -> Flow {
-    Flow::from_fn(|i, _| flow[i] + k[i] * t)
+    let mut to = Flow::zeros();
+    for i in SEEN {
+        to[i] = flow[i] + k[i] * t;
+    }
+    to
 }
 
 #[inline]
@@ -138,8 +142,7 @@ mod tests {
                 step.nodes[0] = node;
                 dynamics.law(&mut step.rates[0], &flow, &node, loads.begin, &scene);
                 step.from = flow;
-                dynamics.internal_step(&mut step, size, &scene, &mut node);
-                flow = step.to;
+                dynamics.internal_step(&mut step, size, &scene, (&mut flow, &mut node));
             }
             flow
         };
