@@ -41,6 +41,7 @@ pub enum Status {
 }
 
 impl From<i32> for Status {
+    #[inline]
     fn from(number: i32) -> Self {
         match number {
             0 => Self::Ok,

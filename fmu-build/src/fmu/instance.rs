@@ -140,6 +140,7 @@ impl Instance {
     ///
     /// # Errors
     /// If the unit cannot.
+    #[inline]
     pub fn do_step(&mut self, time: f64, step: f64) -> Result<(), Error> {
         self.call("fmi2DoStep", |f, c| unsafe { (f.do_step)(c, time, step, TRUE) })
     }
@@ -164,6 +165,7 @@ impl Instance {
     ///
     /// # Errors
     /// If the unit refuses.
+    #[inline]
     pub fn get(&mut self, selection: &Selection, values: &mut Values) -> Result<(), Error> {
         let (reals, integers, booleans) =
             (self.functions().get_real, self.functions().get_integer, self.functions().get_boolean);
@@ -176,6 +178,7 @@ impl Instance {
     ///
     /// # Errors
     /// If the unit refuses.
+    #[inline]
     pub fn set(&mut self, selection: &Selection, values: &Values) -> Result<(), Error> {
         let (reals, integers, booleans) =
             (self.functions().set_real, self.functions().set_integer, self.functions().set_boolean);
@@ -267,6 +270,7 @@ impl Instance {
         &self.loaded.functions
     }
 
+    #[inline]
     fn read<T>(
         &mut self,
         call: &'static str,
@@ -282,6 +286,7 @@ impl Instance {
         self.call(call, |_, component| unsafe { function(component, references.as_ptr(), count, values.as_mut_ptr()) })
     }
 
+    #[inline]
     fn write<T>(
         &mut self,
         call: &'static str,
@@ -299,25 +304,26 @@ impl Instance {
 
     /// Calls a function of the library with the component, which is alive: it is freed on drop only. So
     /// calls that take nothing but numbers are safe.
+    #[inline]
     fn call(
         &mut self,
         call: &'static str,
         function: impl FnOnce(&c::Functions, c::Component) -> c_int,
     ) -> Result<(), Error> {
-        if self.dead {
-            return Err(Error::Call { unit: self.name.clone(), call, status: Status::Fatal, messages: Vec::new() });
+        let status =
+            if self.dead { Status::Fatal } else { function(&self.loaded.functions, self.component.as_ptr()).into() };
+        if matches!(status, Status::Ok | Status::Warning) { Ok(()) } else { Err(self.failure(call, status)) }
+    }
+
+    /// What the unit has to say about a call that went wrong.
+    #[cold]
+    fn failure(&mut self, call: &'static str, status: Status) -> Error {
+        self.dead = status == Status::Fatal;
+        let mut messages = self.log.drain();
+        if messages.iter().any(Message::is_failure) {
+            messages.retain(Message::is_failure);
         }
-        match Status::from(function(&self.loaded.functions, self.component.as_ptr())) {
-            Status::Ok | Status::Warning => Ok(()),
-            status => {
-                self.dead = status == Status::Fatal;
-                let mut messages = self.log.drain();
-                if messages.iter().any(Message::is_failure) {
-                    messages.retain(Message::is_failure);
-                }
-                Err(Error::Call { unit: self.name.clone(), call, status, messages })
-            }
-        }
+        Error::Call { unit: self.name.clone(), call, status, messages }
     }
 }
 
