@@ -7,7 +7,7 @@ use super::error::Error;
 use super::identity::Identity;
 use super::model::{CommunicationStep, Model};
 use super::state::{Call, State};
-use crate::variables::{Causality, Kind, Table, Variability, Variable};
+use crate::variables::{Bounds, Causality, Kind, Table, Variability, Variable};
 
 mod derivatives;
 mod saved;
@@ -242,21 +242,35 @@ impl<M: Model> Instance<M> {
 
     fn checked_step(&self, from: f64, size: f64) -> Result<CommunicationStep, Error> {
         let Situation { start_time, stop_time, time, .. } = self.now;
-        let gap = GAP + GAP_PER_SECOND * time.abs();
+        let step = CommunicationStep { start_time, from, size };
+        let gap = gap_at(time);
+        // No comparison holds for what is no number.
+        let possible = (from - time).abs() <= gap
+            && stop_time.is_none_or(|stop_time| from <= stop_time + gap)
+            && Bounds::NON_NEGATIVE.admit(size)
+            && step.to() < f64::INFINITY;
+        if possible { Ok(step) } else { Err(self.no_step(from, size)) }
+    }
+
+    /// Why that is no step from here.
+    #[cold]
+    #[inline(never)]
+    fn no_step(&self, from: f64, size: f64) -> Error {
+        let Situation { stop_time, time, .. } = self.now;
+        let gap = gap_at(time);
         if !from.is_finite() {
-            return Err(argument("currentCommunicationPoint", "a finite number", from));
+            return argument("currentCommunicationPoint", "a finite number", from);
         }
-        if !size.is_finite() || size < 0.0 {
-            return Err(argument("communicationStepSize", "a finite number, at least 0", size));
+        if !Bounds::NON_NEGATIVE.admit(size) {
+            return argument("communicationStepSize", "a finite number, at least 0", size);
         }
         if (from - time).abs() > gap {
-            return Err(Error::Gap { expected: time, found: from });
+            return Error::Gap { expected: time, found: from };
         }
         if let Some(stop_time) = stop_time.filter(|stop| from > stop + gap) {
-            return Err(argument("currentCommunicationPoint", format!("at most stopTime = {stop_time}"), from));
+            return argument("currentCommunicationPoint", format!("at most stopTime = {stop_time}"), from);
         }
-        let step = CommunicationStep { start_time, from, size };
-        if step.to().is_finite() { Ok(step) } else { Err(argument("communicationStepSize", "smaller", size)) }
+        argument("communicationStepSize", "smaller", size)
     }
 
     /// Ends the simulation; harmless if it has ended already.
@@ -340,14 +354,22 @@ impl<M: Model> Instance<M> {
         })
     }
 
-    /// Moves to a communication point, and the independent variable with it.
+    /// Moves to a communication point, and with it the independent variable, which is the first one.
+    #[inline]
     fn go_to(&mut self, time: f64) {
         self.now.time = time;
-        let clock = self.table.variables().iter().find(|variable| variable.causality == Causality::Independent);
-        if let Some(Variable { kind: Kind::Real { at, .. }, index, .. }) = clock {
+        if let [Variable { causality: Causality::Independent, kind: Kind::Real { at, .. }, index, .. }, ..] =
+            self.table.variables()
+        {
             *at(&mut self.now.data, *index) = time;
         }
     }
+}
+
+/// Largest gap between the end of a step at `time` and the beginning of the next \[s\].
+#[inline]
+fn gap_at(time: f64) -> f64 {
+    GAP + GAP_PER_SECOND * time.abs()
 }
 
 #[inline]
