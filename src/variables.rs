@@ -337,3 +337,30 @@ impl<D> Group<'_, D> {
         self
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bounds_admit_finite_numbers_from_their_ends_on() {
+        let least = f64::from_bits(1);
+        for bounds in [Bounds::ANY, Bounds::NON_NEGATIVE, Bounds::POSITIVE] {
+            assert!([least, f64::MAX].into_iter().all(|value| bounds.admit(value)), "{bounds}");
+            let beyond = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
+            assert!(!beyond.into_iter().any(|value| bounds.admit(value)), "{bounds}");
+        }
+        let admitted = |value| [Bounds::ANY, Bounds::NON_NEGATIVE, Bounds::POSITIVE].map(|bounds| bounds.admit(value));
+        assert_eq!([f64::MIN, -least].map(admitted), [[true, false, false]; 2]);
+        assert_eq!([-0.0, 0.0].map(admitted), [[true, true, false]; 2]);
+    }
+
+    #[test]
+    fn bounds_are_described_by_the_ends_that_they_have() {
+        let described = |bounds: Bounds| (bounds.min(), bounds.min_excluded(), bounds.max(), bounds.to_string());
+        assert_eq!(described(Bounds::ANY), (None, false, None, "a finite number".to_owned()));
+        let (closed, open) = ("a finite number, at least 0".to_owned(), "a finite number, above 0".to_owned());
+        assert_eq!(described(Bounds::NON_NEGATIVE), (Some(0.0), false, None, closed));
+        assert_eq!(described(Bounds::POSITIVE), (Some(0.0), true, None, open));
+    }
+}

@@ -383,11 +383,10 @@ fn lookup<D>(variables: &[Variable<D>], reference: u32) -> Result<&Variable<D>, 
 /// Whether causality and variability of a variable allow that it is set in `state`.
 #[inline]
 fn settable<D>(variable: &Variable<D>, state: State) -> bool {
-    match variable.causality {
-        Causality::Input => true,
-        Causality::Parameter => variable.variability != Variability::Fixed || state.precedes_simulation(),
-        Causality::Output | Causality::Independent => false,
-    }
+    // Inputs first: they are set most often.
+    variable.causality == Causality::Input
+        || variable.causality == Causality::Parameter
+            && (variable.variability != Variability::Fixed || state.precedes_simulation())
 }
 
 /// Why it is not [`settable`].
