@@ -1,7 +1,8 @@
 //! From one working set to the next, downhill.
 
+use super::null_space::NullSpace;
 use super::triangle::Triangle;
-use super::{MAX_ROWS, MAX_VARIABLES, NullSpace, Place, Places, Problem, Rows, Vector, largest, product};
+use super::{MAX_ROWS, MAX_VARIABLES, Place, Places, Problem, ROUNDING, Rows, Vector, largest, product};
 
 /// Working sets at most; a few are enough, and arithmetic beyond its range alone leads here.
 const STEPS: usize = 100;
@@ -9,11 +10,11 @@ const STEPS: usize = 100;
 /// Slopes below this share of their terms are none.
 const FLAT: f64 = 1e-12;
 
+/// The equalities' multipliers, and slopes with them, are off by this share of the slopes without.
+const BLUR: f64 = 2e-15;
+
 /// Variables that move by less than this share of the largest motion are at rest.
 const AT_REST: f64 = 1e-12;
-
-/// Steps below this share of the variables have no length.
-const ROUNDING: f64 = 1e-14;
 
 /// Minimises |A x - b|^2 + ridge |x|^2 + sum of penalties within the bounds while E x keeps its value.
 pub(super) struct Search<'a> {
@@ -22,6 +23,10 @@ pub(super) struct Search<'a> {
     problem: &'a Problem,
     ridge: f64,
     penalty: &'a Vector,
+    /// What the left-hand sides of the equalities are to be.
+    wanted: [f64; MAX_ROWS],
+    /// Largest coefficient of the equalities.
+    size: f64,
     /// Where it is.
     pub x: Vector,
     /// Which variables are in motion; the others rest at an end or at a kink.
@@ -54,6 +59,8 @@ impl<'a> Search<'a> {
             problem,
             ridge,
             penalty,
+            wanted: equalities.values,
+            size: equalities.size(),
             x: std::array::from_fn(within),
             free: [false; MAX_VARIABLES],
             movable: std::array::from_fn(|i| i < n && problem.lower[i] < problem.upper[i]),
@@ -81,37 +88,66 @@ impl<'a> Search<'a> {
                 self.x[i] = if rest { x } else { 0.0 };
             }
         }
-        self.space.span(self.equalities, &self.free);
-        let mut missing = [0.0; MAX_ROWS];
-        for (missing, (row, value)) in missing.iter_mut().zip(self.equalities.iter()) {
-            *missing = value - product(row, &self.x);
-        }
-        let onto = self.space.particular(&missing);
-        self.scatter(&onto);
+        self.span();
         let step = self.step();
-        self.scatter(&step);
-        let within = (0..*n).all(|i| self.x[i].is_finite() && self.x[i] >= lower[i] && self.x[i] <= upper[i]);
-        if within && self.equalities.met_by(&self.x) {
-            let side = self.side;
-            self.take_sides();
-            self.settled = self.side == side;
-            return true;
+        self.advance(&step, 1.0);
+        let within = (0..*n).all(|i| self.x[i].is_finite() && self.x[i] == self.problem.bounded(i, self.x[i]));
+        if !(within && self.equalities_met()) {
+            return false;
         }
-        // As near as the bounds allow; whatever is no number is forgotten.
-        for i in 0..*n {
-            let x = if self.x[i].is_finite() { self.x[i] } else { 0.0 };
-            self.x[i] = self.problem.bounded(i, x);
-        }
-        false
+        let side = self.side;
+        self.take_sides();
+        self.settled = self.side == side;
+        true
     }
 
-    /// Puts the variables at `x` within the bounds; those at an end or at a kink rest.
-    pub fn start(&mut self, x: Vector) {
-        self.x = x;
+    /// Whether the equalities hold after a step to their values.
+    fn equalities_met(&self) -> bool {
+        self.space.rank() == self.equalities.count || self.equalities.met_by(&self.x, &self.x)
+    }
+
+    /// Lets `guess` hold those that were taken farthest beyond their bounds at these, and leave a direction to move
+    /// in, if there are others; false if there is nothing to hold.
+    pub fn hold(&self, guess: &mut Places) -> bool {
+        let directions = self.space.dimension();
+        if directions == 0 || !self.equalities_met() {
+            return false;
+        }
+        // Some can go back at little expense for the others: those that can move freely.
+        let shares = self.space.shares();
+        let mut beyond = [0.0; MAX_VARIABLES];
+        for i in 0..self.problem.variables {
+            let distance = self.x[i] - self.problem.bounded(i, self.x[i]);
+            beyond[i] = distance * distance / shares[i];
+        }
+        let mut held = false;
+        for _ in 1..directions.max(2) {
+            let (mut farthest, mut most) = (0, 0.0);
+            for (i, beyond) in beyond.iter().enumerate() {
+                if *beyond > most {
+                    (farthest, most) = (i, *beyond);
+                }
+            }
+            if most == 0.0 {
+                break;
+            }
+            beyond[farthest] = 0.0;
+            let above = self.x[farthest] > self.problem.upper[farthest];
+            guess[farthest] = if above { Place::Upper } else { Place::Lower };
+            held = true;
+        }
+        held
+    }
+
+    /// Puts the variables at `x`, or as near as the bounds allow; those at an end or at a kink rest. What is no
+    /// number is forgotten.
+    pub fn start(&mut self, x: &Vector) {
         self.settled = false;
-        for (i, x) in x.iter().enumerate().take(self.problem.variables) {
-            let inside = *x > self.problem.lower[i] && *x < self.problem.upper[i];
-            self.free[i] = self.movable[i] && inside && !(self.penalty[i] > 0.0 && *x == 0.0);
+        for i in 0..self.problem.variables {
+            let x = self.problem.bounded(i, if x[i].is_finite() { x[i] } else { 0.0 });
+            let inside = x > self.problem.lower[i] && x < self.problem.upper[i];
+            self.x[i] = x;
+            self.free[i] = self.movable[i] && inside && !(self.penalty[i] > 0.0 && x == 0.0);
         }
         self.take_sides();
     }
@@ -147,29 +183,34 @@ impl<'a> Search<'a> {
 
     /// Number of independent equalities among the `free` variables.
     fn rank(&mut self, free: [bool; MAX_VARIABLES]) -> usize {
-        self.space.span(self.equalities, &free);
+        self.space.span(self.equalities, self.size, &free);
         self.space.rank()
+    }
+
+    /// Brings the null space up to date.
+    fn span(&mut self) {
+        self.space.span(self.equalities, self.size, &self.free);
     }
 
     /// Walks to the minimum; false if it was not reached.
     pub fn descend(&mut self) -> bool {
         let mut stalled = false;
         for _ in 0..STEPS {
-            self.space.span(self.equalities, &self.free);
+            self.span();
             if !std::mem::take(&mut self.settled) {
                 let step = self.step();
                 let before = self.x;
-                if !self.space.indices().iter().zip(&step).all(|(i, step)| (before[*i] + step).is_finite()) {
+                if !before.iter().zip(&step).all(|(x, step)| (x + step).is_finite()) {
                     return false;
                 }
                 if let Some((share, i, end)) = self.first_stop(&step) {
-                    self.scatter(&step.map(|step| step * share));
+                    self.advance(&step, share);
                     self.x[i] = end;
                     self.free[i] = false;
                     stalled = self.rests_at(&before);
                     continue;
                 }
-                self.scatter(&step);
+                self.advance(&step, 1.0);
                 stalled = stalled && self.rests_at(&before);
             }
             let Some((i, side)) = self.entering(stalled) else { return true };
@@ -185,32 +226,75 @@ impl<'a> Search<'a> {
         self.x.iter().zip(before).all(|(x, before)| (x - before).abs() <= ROUNDING * size)
     }
 
-    /// Moves the free variables by `step`.
-    fn scatter(&mut self, step: &Vector) {
-        for (i, step) in self.space.indices().iter().zip(step) {
-            self.x[*i] += step;
-        }
+    /// Goes this `share` of the `step`.
+    fn advance(&mut self, step: &Vector, share: f64) {
+        self.x.iter_mut().zip(step).for_each(|(x, step)| *x += share * step);
     }
 
-    /// The way to the minimum over the free variables, regardless of their ends.
-    fn step(&self) -> Vector {
-        let space = &self.space;
-        if space.dimension() == 0 {
-            return [0.0; MAX_VARIABLES];
+    /// The way to the minimum over the free variables with the equalities, regardless of their ends.
+    fn step(&mut self) -> Vector {
+        let missing = self.missing();
+        // Without objective: the ridge and the penalties are ridge |x + slopes / ridge|^2.
+        let slopes = self.slopes();
+        let turn = &mut self.space.turn;
+        let mut y = turn.forth(&std::array::from_fn(|i| -(self.x[i] + slopes[i] / self.ridge)));
+        self.space.put(&mut y, &missing);
+        if self.space.dimension() == 0 {
+            return self.space.turn.back(y);
         }
-        let here = space.coordinates(space.part(&self.x)).map(|x| -x);
-        let mut triangle = Triangle::new(self.ridge, space.inner(&here));
+        // Each row of the objective adds one coordinate in which it lies, together with those before.
+        let rank = self.space.rank();
+        let mut triangle = Triangle::default();
         for (row, value) in self.objective.iter() {
-            let coordinates = space.coordinates(space.part(row));
-            triangle.add(space.inner(&coordinates), value - product(row, &self.x));
+            let coordinates = self.space.turn.forth(row);
+            let error = value - product(row, &self.x) - self.space.seen(&coordinates, &y);
+            let turn = &mut self.space.turn;
+            let mut short = [0.0; MAX_ROWS];
+            let inner = &turn.pivots()[rank..];
+            short.iter_mut().zip(inner).for_each(|(short, pivot)| *short = coordinates[*pivot]);
+            let left = turn.left(&coordinates);
+            let squared = product(&left, &left);
+            if squared > ROUNDING * ROUNDING * product(&coordinates, &coordinates) {
+                let norm = squared.sqrt();
+                short[inner.len()] = 0.0;
+                let k = inner.len();
+                let (pivot, coordinate) = turn.add(&left, norm);
+                turn.last(&mut y);
+                short[k] = coordinate;
+                triangle.grow(self.ridge.sqrt(), y[pivot]);
+            }
+            triangle.add(short, error);
         }
-        let slope = space.coordinates(space.part(&self.slopes()));
-        space.direction(&triangle.minimum(space.inner(&slope)))
+        let turn = &mut self.space.turn;
+        turn.pivots()[rank..].iter().zip(triangle.minimum()).for_each(|(pivot, z)| y[*pivot] = z);
+        let step = turn.back(y);
+        turn.truncate(rank);
+        step
+    }
+
+    /// What the equalities' left-hand sides lack.
+    fn missing(&self) -> [f64; MAX_ROWS] {
+        let mut missing = [0.0; MAX_ROWS];
+        for ((missing, wanted), (row, _)) in missing.iter_mut().zip(&self.wanted).zip(self.equalities.iter()) {
+            *missing = wanted - product(row, &self.x);
+            if missing.abs() <= ROUNDING * (wanted.abs() + self.size * largest(&self.x)) {
+                *missing = 0.0;
+            }
+        }
+        missing
+    }
+
+    /// Lets the equalities keep what they have.
+    pub fn keep(&mut self) {
+        for (wanted, (row, _)) in self.wanted.iter_mut().zip(self.equalities.iter()) {
+            *wanted = product(row, &self.x);
+        }
     }
 
     /// Half the slopes of the penalties of variables in motion.
     fn slopes(&self) -> Vector {
-        std::array::from_fn(|i| 0.5 * self.penalty[i] * self.side[i])
+        let free = &self.space.turn.free;
+        std::array::from_fn(|i| 0.5 * self.penalty[i] * self.side[i] * free[i])
     }
 
     /// Where a variable in motion has to stop.
@@ -227,7 +311,7 @@ impl<'a> Search<'a> {
     fn first_stop(&self, step: &Vector) -> Option<(f64, usize, f64)> {
         let fastest = largest(step);
         let mut first: Option<(f64, usize, f64)> = None;
-        for (&i, &step) in self.space.indices().iter().zip(step) {
+        for (i, &step) in step.iter().enumerate().take(self.problem.variables) {
             if step.abs() <= AT_REST * fastest {
                 continue;
             }
@@ -255,9 +339,8 @@ impl<'a> Search<'a> {
             gradient.iter_mut().zip(row).for_each(|(gradient, coefficient)| *gradient += coefficient * error);
         }
         let slopes = self.slopes();
-        let total = std::array::from_fn(|i| gradient[i] + slopes[i]);
-        let space = &self.space;
-        let multipliers = space.multipliers(&space.coordinates(space.part(&total)));
+        let total: Vector = std::array::from_fn(|i| gradient[i] + slopes[i]);
+        let multipliers = self.space.multipliers(&self.space.turn.forth(&total));
         for (multiplier, (row, _)) in multipliers.iter().zip(self.equalities.iter()) {
             gradient.iter_mut().zip(row).for_each(|(gradient, coefficient)| *gradient -= coefficient * multiplier);
         }
@@ -275,7 +358,7 @@ impl<'a> Search<'a> {
                 (gain, side) = (gradient[i] + downwards, if x > 0.0 { 1.0 } else { -1.0 });
             }
             if gain > 0.0
-                && gain > FLAT * (self.terms(i, &multipliers) + weight)
+                && gain > FLAT * (self.terms(i, &multipliers) + weight) + BLUR * largest(&total)
                 && best.is_none_or(|(most, ..)| gain > most)
             {
                 best = Some((gain, i, side));
