@@ -51,7 +51,7 @@ impl NullSpace {
         }
         self.rank = 0;
         while self.rank < equalities.count && self.eliminate(&mut left[..equalities.count], DEPENDENT * size) {}
-        self.dimension = free.iter().filter(|free| **free).count() - self.rank;
+        self.dimension = self.turn.remaining();
     }
 
     /// The next reflection, for the largest of what is `left` of the rows; false if nothing is.

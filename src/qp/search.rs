@@ -234,14 +234,15 @@ impl<'a> Search<'a> {
     /// The way to the minimum over the free variables with the equalities, regardless of their ends.
     fn step(&mut self) -> Vector {
         let missing = self.missing();
-        // Without objective: the ridge and the penalties are ridge |x + slopes / ridge|^2.
-        let slopes = self.slopes();
-        let turn = &mut self.space.turn;
-        let mut y = turn.forth(&std::array::from_fn(|i| -(self.x[i] + slopes[i] / self.ridge)));
-        self.space.put(&mut y, &missing);
+        let mut y = [0.0; MAX_VARIABLES];
         if self.space.dimension() == 0 {
+            self.space.put(&mut y, &missing);
             return self.space.turn.back(y);
         }
+        // Without objective: the ridge and the penalties are ridge |x + slopes / ridge|^2.
+        let slopes = self.slopes();
+        y = self.space.turn.forth(&std::array::from_fn(|i| -(self.x[i] + slopes[i] / self.ridge)));
+        self.space.put(&mut y, &missing);
         // Each row of the objective adds one coordinate in which it lies, together with those before.
         let rank = self.space.rank();
         let mut triangle = Triangle::default();

@@ -3,12 +3,14 @@
 use super::{MAX_VARIABLES, Vector, product};
 
 /// Reflections 1 - `scale` v v^T, one after the other. Each turns what is left of a row into one coordinate, the pivot,
-/// and lets the pivots before alone.
+/// and lets the pivots before alone. Where one coordinate is left, it is the pivot without a reflection.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Turn {
     reflections: [(Vector, f64); MAX_VARIABLES],
     pivots: [usize; MAX_VARIABLES],
     count: usize,
+    /// Number of coordinates that may still change.
+    remaining: usize,
     /// 1 for the variables that it is about, otherwise 0.
     pub free: Vector,
     /// 1 for the coordinates that may still change, otherwise 0.
@@ -21,6 +23,7 @@ impl Turn {
         reflections: [([0.0; MAX_VARIABLES], 0.0); MAX_VARIABLES],
         pivots: [0; MAX_VARIABLES],
         count: 0,
+        remaining: 0,
         free: [0.0; MAX_VARIABLES],
         left: [0.0; MAX_VARIABLES],
     };
@@ -30,6 +33,12 @@ impl Turn {
         self.free = free.map(|free| if free { 1.0 } else { 0.0 });
         self.left = self.free;
         self.count = 0;
+        self.remaining = free.iter().filter(|free| **free).count();
+    }
+
+    /// Number of coordinates that no pivot has.
+    pub fn remaining(&self) -> usize {
+        self.remaining
     }
 
     /// The pivots in their order.
@@ -46,37 +55,49 @@ impl Turn {
     /// and what it is.
     pub fn add(&mut self, row: &Vector, norm: f64) -> (usize, f64) {
         let pivot = self.left.iter().position(|left| *left > 0.0).unwrap_or(0);
-        let sign = if row[pivot] < 0.0 { -1.0 } else { 1.0 };
-        let mut v = self.left(row);
-        v[pivot] += sign * norm;
-        self.reflections[self.count] = (v, (norm * v[pivot].abs()).recip());
+        let mut coordinate = row[pivot];
+        if self.remaining > 1 {
+            let mut v = self.left(row);
+            v[pivot] += norm.copysign(coordinate);
+            self.reflections[self.count] = (v, (norm * v[pivot].abs()).recip());
+            coordinate = -norm.copysign(coordinate);
+        }
         self.pivots[self.count] = pivot;
         self.left[pivot] = 0.0;
         self.count += 1;
-        (pivot, -sign * norm)
+        self.remaining -= 1;
+        (pivot, coordinate)
     }
 
     /// Only the first `count` reflections remain.
     pub fn truncate(&mut self, count: usize) {
         self.pivots[count..self.count].iter().for_each(|pivot| self.left[*pivot] = 1.0);
+        self.remaining += self.count - count;
         self.count = count;
+    }
+
+    /// The reflections in their order.
+    fn reflections(&self) -> &[(Vector, f64)] {
+        &self.reflections[..if self.remaining == 0 { self.count.saturating_sub(1) } else { self.count }]
     }
 
     /// Turns `y` by the last reflection alone.
     pub fn last(&self, y: &mut Vector) {
-        self.reflections[..self.count].last().into_iter().for_each(|reflection| reflect(reflection, y));
+        if self.remaining > 0 {
+            self.reflections().last().into_iter().for_each(|reflection| reflect(reflection, y));
+        }
     }
 
     /// What `x` becomes on the free variables.
     pub fn forth(&self, x: &Vector) -> Vector {
         let mut y = std::array::from_fn(|i| x[i] * self.free[i]);
-        self.reflections[..self.count].iter().for_each(|reflection| reflect(reflection, &mut y));
+        self.reflections().iter().for_each(|reflection| reflect(reflection, &mut y));
         y
     }
 
     /// What becomes `y`.
     pub fn back(&self, mut y: Vector) -> Vector {
-        self.reflections[..self.count].iter().rev().for_each(|reflection| reflect(reflection, &mut y));
+        self.reflections().iter().rev().for_each(|reflection| reflect(reflection, &mut y));
         y
     }
 }
