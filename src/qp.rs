@@ -62,7 +62,7 @@ impl Rows {
 
     /// The equations one by one.
     fn iter(&self) -> impl Iterator<Item = (&Vector, f64)> {
-        self.coefficients.iter().zip(self.values.iter().copied()).take(self.count)
+        self.coefficients[..self.count].iter().zip(self.values[..self.count].iter().copied())
     }
 
     /// Largest coefficient.
@@ -113,7 +113,8 @@ impl Problem {
 
     /// `x` within the bounds.
     fn bounded(&self, i: usize, x: f64) -> f64 {
-        x.max(self.lower[i]).min(self.upper[i])
+        let x = if x < self.lower[i] { self.lower[i] } else { x };
+        if x > self.upper[i] { self.upper[i] } else { x }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::null_space::NullSpace;
 use super::triangle::Triangle;
-use super::{MAX_ROWS, MAX_VARIABLES, Place, Places, Problem, ROUNDING, Rows, Vector, largest, product};
+use super::{FREE, MAX_ROWS, MAX_VARIABLES, Place, Places, Problem, ROUNDING, Rows, Vector, largest, product};
 
 /// Working sets at most; a few are enough, and arithmetic beyond its range alone leads here.
 const STEPS: usize = 100;
@@ -251,18 +251,14 @@ impl<'a> Search<'a> {
             let error = value - product(row, &self.x) - self.space.seen(&coordinates, &y);
             let turn = &mut self.space.turn;
             let mut short = [0.0; MAX_ROWS];
-            let inner = &turn.pivots()[rank..];
-            short.iter_mut().zip(inner).for_each(|(short, pivot)| *short = coordinates[*pivot]);
+            short.iter_mut().zip(&turn.pivots()[rank..]).for_each(|(short, pivot)| *short = coordinates[*pivot]);
             let left = turn.left(&coordinates);
             let squared = product(&left, &left);
             if squared > ROUNDING * ROUNDING * product(&coordinates, &coordinates) {
-                let norm = squared.sqrt();
-                short[inner.len()] = 0.0;
-                let k = inner.len();
-                let (pivot, coordinate) = turn.add(&left, norm);
+                let (pivot, coordinate) = turn.add(&left, squared.sqrt());
                 turn.last(&mut y);
-                short[k] = coordinate;
-                triangle.grow(self.ridge.sqrt(), y[pivot]);
+                short[triangle.dimension()] = coordinate;
+                triangle.grow(self.ridge, y[pivot]);
             }
             triangle.add(short, error);
         }
@@ -384,18 +380,19 @@ impl<'a> Search<'a> {
 
     /// Where the variables are.
     pub fn places(&self) -> Places {
-        let Problem { variables: n, lower, upper, .. } = self.problem;
-        std::array::from_fn(|i| {
+        let mut places = FREE;
+        for (i, place) in places.iter_mut().enumerate().take(self.problem.variables) {
             let x = self.x[i];
-            if i >= *n || self.free[i] {
+            *place = if self.free[i] {
                 if self.side[i] > 0.0 { Place::Above } else { Place::Below }
-            } else if x <= lower[i] {
+            } else if x <= self.problem.lower[i] {
                 Place::Lower
-            } else if x >= upper[i] {
+            } else if x >= self.problem.upper[i] {
                 Place::Upper
             } else {
                 Place::Zero
-            }
-        })
+            };
+        }
+        places
     }
 }

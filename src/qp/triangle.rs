@@ -2,44 +2,54 @@
 
 use super::MAX_ROWS;
 
-/// One number for each coordinate in which rows of the objective lie.
+/// One number for each coordinate.
 pub(super) type Short = [f64; MAX_ROWS];
 
-/// The triangular factor R of all rows so far, ridge included, and the right-hand side turned likewise.
+/// All rows so far, ridge included, as a triangle R with ones on its diagonal, the weights of its rows, and the
+/// right-hand side turned likewise (W. M. Gentleman, J. Inst. Maths Applics 12 (1973) 329-336).
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Triangle {
     dimension: usize,
+    weights: Short,
     factor: [Short; MAX_ROWS],
     right: Short,
 }
 
 impl Triangle {
-    /// One more coordinate z, with a ridge: `weight`^2 |z - `center`|^2.
+    /// Number of coordinates.
+    pub fn dimension(&self) -> usize {
+        self.dimension
+    }
+
+    /// One more coordinate z, and its ridge `weight` (z - `center`)^2.
     pub fn grow(&mut self, weight: f64, center: f64) {
-        self.factor[self.dimension][self.dimension] = weight;
-        self.right[self.dimension] = weight * center;
+        self.weights[self.dimension] = weight;
+        self.right[self.dimension] = center;
         self.dimension += 1;
     }
 
-    /// One more equation `row` * z = `value` (Givens rotations: W. Givens, J. SIAM 6 (1958) 26-50).
+    /// One more equation `row` * z = `value`, by Givens rotations without square roots.
     pub fn add(&mut self, mut row: Short, mut value: f64) {
+        let mut weight = 1.0;
         for i in 0..self.dimension {
-            let upper = &mut self.factor[i];
-            let size = (upper[i] * upper[i] + row[i] * row[i]).sqrt();
-            let (cosine, sine) = (upper[i] / size, row[i] / size);
-            for (upper, rest) in upper[i..].iter_mut().zip(&mut row[i..]) {
-                (*upper, *rest) = (cosine * *upper + sine * *rest, cosine * *rest - sine * *upper);
-            }
-            (self.right[i], value) = (cosine * self.right[i] + sine * value, cosine * value - sine * self.right[i]);
+            let first = row[i];
+            let total = self.weights[i] + weight * first * first;
+            let (old, new) = (self.weights[i] / total, weight * first / total);
+            self.weights[i] = total;
+            weight *= old;
+            let mut turn = |upper: &mut f64, rest: &mut f64| {
+                (*upper, *rest) = (old * *upper + new * *rest, *rest - first * *upper);
+            };
+            self.factor[i].iter_mut().zip(&mut row).skip(i + 1).for_each(|(upper, rest)| turn(upper, rest));
+            turn(&mut self.right[i], &mut value);
         }
     }
 
-    /// The z with the smallest sum of squares.
+    /// The z with the smallest sum of weighted squares.
     pub fn minimum(&self) -> Short {
-        let mut z = [0.0; MAX_ROWS];
+        let mut z = self.right;
         for i in (0..self.dimension).rev() {
-            let after: f64 = (i + 1..self.dimension).map(|k| self.factor[i][k] * z[k]).sum();
-            z[i] = (self.right[i] - after) / self.factor[i][i];
+            z[i] -= (i + 1..self.dimension).map(|k| self.factor[i][k] * z[k]).sum::<f64>();
         }
         z
     }
