@@ -15,6 +15,7 @@
 //! none, the least index enters and leaves, with which no working set comes twice (Y.-Y. Chang and
 //! R. W. Cottle, Mathematical Programming 18 (1980) 127-137). No memory is allocated.
 
+mod guess;
 mod null_space;
 mod search;
 mod triangle;

@@ -19,22 +19,14 @@ pub(super) struct NullSpace {
     /// Independent rows among the equalities, in the order of elimination, and how many.
     order: [usize; MAX_ROWS],
     rank: usize,
-    /// Dimension of the null space.
-    dimension: usize,
     /// R^T, one row for each equality.
     factor: [[f64; MAX_ROWS]; MAX_ROWS],
 }
 
 impl NullSpace {
     /// For nothing yet.
-    pub const EMPTY: Self = Self {
-        of: None,
-        turn: Turn::EMPTY,
-        order: [0; MAX_ROWS],
-        rank: 0,
-        dimension: 0,
-        factor: [[0.0; MAX_ROWS]; MAX_ROWS],
-    };
+    pub const EMPTY: Self =
+        Self { of: None, turn: Turn::EMPTY, order: [0; MAX_ROWS], rank: 0, factor: [[0.0; MAX_ROWS]; MAX_ROWS] };
 
     /// Becomes that of the same `equalities`, with the largest coefficient `size`, as before for the variables that
     /// are `free`, at no cost if it is already.
@@ -51,7 +43,6 @@ impl NullSpace {
         }
         self.rank = 0;
         while self.rank < equalities.count && self.eliminate(&mut left[..equalities.count], DEPENDENT * size) {}
-        self.dimension = self.turn.remaining();
     }
 
     /// The next reflection, for the largest of what is `left` of the rows; false if nothing is.
@@ -88,7 +79,7 @@ impl NullSpace {
 
     /// Dimension of the null space.
     pub fn dimension(&self) -> usize {
-        self.dimension
+        self.turn.remaining()
     }
 
     /// The pivots of the independent equalities.

@@ -2,7 +2,7 @@
 
 use super::null_space::NullSpace;
 use super::triangle::Triangle;
-use super::{FREE, MAX_ROWS, MAX_VARIABLES, Place, Places, Problem, ROUNDING, Rows, Vector, largest, product};
+use super::{MAX_ROWS, MAX_VARIABLES, Problem, ROUNDING, Rows, Vector, largest, product};
 
 /// Working sets at most; a few are enough, and arithmetic beyond its range alone leads here.
 const STEPS: usize = 100;
@@ -18,27 +18,27 @@ const AT_REST: f64 = 1e-12;
 
 /// Minimises |A x - b|^2 + ridge |x|^2 + sum of penalties within the bounds while E x keeps its value.
 pub(super) struct Search<'a> {
-    objective: &'a Rows,
-    equalities: &'a Rows,
-    problem: &'a Problem,
-    ridge: f64,
-    penalty: &'a Vector,
+    pub(super) objective: &'a Rows,
+    pub(super) equalities: &'a Rows,
+    pub(super) problem: &'a Problem,
+    pub(super) ridge: f64,
+    pub(super) penalty: &'a Vector,
     /// What the left-hand sides of the equalities are to be.
-    wanted: [f64; MAX_ROWS],
+    pub(super) wanted: [f64; MAX_ROWS],
     /// Largest coefficient of the equalities.
-    size: f64,
+    pub(super) size: f64,
     /// Where it is.
-    pub x: Vector,
+    pub(super) x: Vector,
     /// Which variables are in motion; the others rest at an end or at a kink.
-    pub free: [bool; MAX_VARIABLES],
+    pub(super) free: [bool; MAX_VARIABLES],
     /// Which may ever move.
-    pub movable: [bool; MAX_VARIABLES],
+    pub(super) movable: [bool; MAX_VARIABLES],
     /// Sign of each penalised variable in motion: its penalty is linear up to 0.
-    side: Vector,
+    pub(super) side: Vector,
     /// The directions in which the free variables may move.
-    space: NullSpace,
+    pub(super) space: NullSpace,
     /// Whether they are at their minimum already.
-    settled: bool,
+    pub(super) settled: bool,
 }
 
 impl<'a> Search<'a> {
@@ -70,75 +70,6 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Puts the variables where `guess` has them, the free ones at their minimum with the equalities; true if
-    /// the bounds and the equalities then hold.
-    pub fn take(&mut self, guess: &Places) -> bool {
-        let Problem { variables: n, lower, upper, .. } = self.problem;
-        for i in 0..*n {
-            let (rest, x, side) = match guess[i] {
-                Place::Lower => (lower[i].is_finite(), lower[i], 1.0),
-                Place::Upper => (upper[i].is_finite(), upper[i], 1.0),
-                Place::Zero => (self.penalty[i] > 0.0 && lower[i] <= 0.0 && upper[i] >= 0.0, 0.0, 1.0),
-                Place::Below => (false, 0.0, -1.0),
-                Place::Above => (false, 0.0, 1.0),
-            };
-            self.free[i] = self.movable[i] && !rest;
-            self.side[i] = if self.penalty[i] == 0.0 { 1.0 } else { side };
-            if self.movable[i] {
-                self.x[i] = if rest { x } else { 0.0 };
-            }
-        }
-        self.span();
-        let step = self.step();
-        self.advance(&step, 1.0);
-        let within = (0..*n).all(|i| self.x[i].is_finite() && self.x[i] == self.problem.bounded(i, self.x[i]));
-        if !(within && self.equalities_met()) {
-            return false;
-        }
-        let side = self.side;
-        self.take_sides();
-        self.settled = self.side == side;
-        true
-    }
-
-    /// Whether the equalities hold after a step to their values.
-    fn equalities_met(&self) -> bool {
-        self.space.rank() == self.equalities.count || self.equalities.met_by(&self.x, &self.x)
-    }
-
-    /// Lets `guess` hold those that were taken farthest beyond their bounds at these, and leave a direction to move
-    /// in, if there are others; false if there is nothing to hold.
-    pub fn hold(&self, guess: &mut Places) -> bool {
-        let directions = self.space.dimension();
-        if directions == 0 || !self.equalities_met() {
-            return false;
-        }
-        // Some can go back at little expense for the others: those that can move freely.
-        let shares = self.space.shares();
-        let mut beyond = [0.0; MAX_VARIABLES];
-        for i in 0..self.problem.variables {
-            let distance = self.x[i] - self.problem.bounded(i, self.x[i]);
-            beyond[i] = distance * distance / shares[i];
-        }
-        let mut held = false;
-        for _ in 1..directions.max(2) {
-            let (mut farthest, mut most) = (0, 0.0);
-            for (i, beyond) in beyond.iter().enumerate() {
-                if *beyond > most {
-                    (farthest, most) = (i, *beyond);
-                }
-            }
-            if most == 0.0 {
-                break;
-            }
-            beyond[farthest] = 0.0;
-            let above = self.x[farthest] > self.problem.upper[farthest];
-            guess[farthest] = if above { Place::Upper } else { Place::Lower };
-            held = true;
-        }
-        held
-    }
-
     /// Puts the variables at `x`, or as near as the bounds allow; those at an end or at a kink rest. What is no
     /// number is forgotten.
     pub fn start(&mut self, x: &Vector) {
@@ -152,7 +83,7 @@ impl<'a> Search<'a> {
         self.take_sides();
     }
 
-    fn take_sides(&mut self) {
+    pub(super) fn take_sides(&mut self) {
         for i in 0..self.problem.variables {
             let positive = self.x[i] > 0.0 || (self.x[i] == 0.0 && self.problem.upper[i] > 0.0);
             self.side[i] = if positive || self.penalty[i] == 0.0 { 1.0 } else { -1.0 };
@@ -188,7 +119,7 @@ impl<'a> Search<'a> {
     }
 
     /// Brings the null space up to date.
-    fn span(&mut self) {
+    pub(super) fn span(&mut self) {
         self.space.span(self.equalities, self.size, &self.free);
     }
 
@@ -227,12 +158,12 @@ impl<'a> Search<'a> {
     }
 
     /// Goes this `share` of the `step`.
-    fn advance(&mut self, step: &Vector, share: f64) {
+    pub(super) fn advance(&mut self, step: &Vector, share: f64) {
         self.x.iter_mut().zip(step).for_each(|(x, step)| *x += share * step);
     }
 
     /// The way to the minimum over the free variables with the equalities, regardless of their ends.
-    fn step(&mut self) -> Vector {
+    pub(super) fn step(&mut self) -> Vector {
         let missing = self.missing();
         let mut y = [0.0; MAX_VARIABLES];
         if self.space.dimension() == 0 {
@@ -376,23 +307,5 @@ impl<'a> Search<'a> {
         let equalities =
             self.equalities.iter().zip(multipliers).map(|((row, _), multiplier)| (row[i] * multiplier).abs());
         (self.ridge * self.x[i]).abs() + objective.sum::<f64>() + equalities.sum::<f64>()
-    }
-
-    /// Where the variables are.
-    pub fn places(&self) -> Places {
-        let mut places = FREE;
-        for (i, place) in places.iter_mut().enumerate().take(self.problem.variables) {
-            let x = self.x[i];
-            *place = if self.free[i] {
-                if self.side[i] > 0.0 { Place::Above } else { Place::Below }
-            } else if x <= self.problem.lower[i] {
-                Place::Lower
-            } else if x >= self.problem.upper[i] {
-                Place::Upper
-            } else {
-                Place::Zero
-            };
-        }
-        places
     }
 }

@@ -37,7 +37,7 @@ impl Triangle {
             let (old, new) = (self.weights[i] / total, weight * first / total);
             self.weights[i] = total;
             weight *= old;
-            let mut turn = |upper: &mut f64, rest: &mut f64| {
+            let turn = |upper: &mut f64, rest: &mut f64| {
                 (*upper, *rest) = (old * *upper + new * *rest, *rest - first * *upper);
             };
             self.factor[i].iter_mut().zip(&mut row).skip(i + 1).for_each(|(upper, rest)| turn(upper, rest));
