@@ -12,8 +12,8 @@ const DEPENDENT: f64 = 1e-10;
 /// Vectors have a place for each variable; it is zero for those that are not free.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct NullSpace {
-    /// The free variables that it is for; none: it is for nothing yet.
-    of: Option<[bool; MAX_VARIABLES]>,
+    /// The free variables.
+    free: [bool; MAX_VARIABLES],
     /// Q^T; whoever adds reflections takes them away again.
     pub turn: Turn,
     /// Independent rows among the equalities, in the order of elimination, and how many.
@@ -24,17 +24,22 @@ pub(super) struct NullSpace {
 }
 
 impl NullSpace {
-    /// For nothing yet.
-    pub const EMPTY: Self =
-        Self { of: None, turn: Turn::EMPTY, order: [0; MAX_ROWS], rank: 0, factor: [[0.0; MAX_ROWS]; MAX_ROWS] };
+    /// Where no variable is free.
+    pub const EMPTY: Self = Self {
+        free: [false; MAX_VARIABLES],
+        turn: Turn::EMPTY,
+        order: [0; MAX_ROWS],
+        rank: 0,
+        factor: [[0.0; MAX_ROWS]; MAX_ROWS],
+    };
 
     /// Becomes that of the same `equalities`, with the largest coefficient `size`, as before for the variables that
     /// are `free`, at no cost if it is already.
     pub fn span(&mut self, equalities: &Rows, size: f64, free: &[bool; MAX_VARIABLES]) {
-        if self.of.as_ref() == Some(free) {
+        if self.free == *free {
             return;
         }
-        self.of = Some(*free);
+        self.free = *free;
         self.turn.restart(free);
         let mut left = [[0.0; MAX_VARIABLES]; MAX_ROWS];
         for (row, (coefficients, _)) in equalities.iter().enumerate() {

@@ -51,8 +51,11 @@ impl<'a> Search<'a> {
         ridge: f64,
         penalty: &'a Vector,
     ) -> Self {
-        let n = problem.variables;
-        let within = |i: usize| if i < n { problem.bounded(i, 0.0) } else { 0.0 };
+        let (mut x, mut movable) = ([0.0; MAX_VARIABLES], [false; MAX_VARIABLES]);
+        for i in 0..problem.variables {
+            x[i] = problem.bounded(i, 0.0);
+            movable[i] = problem.lower[i] < problem.upper[i];
+        }
         Self {
             objective,
             equalities,
@@ -61,9 +64,9 @@ impl<'a> Search<'a> {
             penalty,
             wanted: equalities.values,
             size: equalities.size(),
-            x: std::array::from_fn(within),
+            x,
             free: [false; MAX_VARIABLES],
-            movable: std::array::from_fn(|i| i < n && problem.lower[i] < problem.upper[i]),
+            movable,
             side: [1.0; MAX_VARIABLES],
             space: NullSpace::EMPTY,
             settled: false,
@@ -256,8 +259,7 @@ impl<'a> Search<'a> {
     /// The variable at rest that is to move, and the side on which: the steepest one, or that of the least
     /// index.
     fn entering(&self, least_index: bool) -> Option<(usize, f64)> {
-        let at_rest = |i: &usize| self.movable[*i] && !self.free[*i];
-        if !(0..self.problem.variables).any(|i| at_rest(&i)) {
+        if self.free == self.movable {
             return None;
         }
         // Half the gradient without penalties.
@@ -274,7 +276,7 @@ impl<'a> Search<'a> {
         }
 
         let mut best: Option<(f64, usize, f64)> = None;
-        for i in (0..self.problem.variables).filter(at_rest) {
+        for i in (0..self.problem.variables).filter(|i| self.movable[*i] && !self.free[*i]) {
             let (x, weight) = (self.x[i], 0.5 * self.penalty[i]);
             let upwards = if x < 0.0 { -weight } else { weight };
             let downwards = if x > 0.0 { weight } else { -weight };

@@ -103,7 +103,6 @@ impl Turn {
 }
 
 /// `y` - scale v (v^T `y`).
-#[inline]
 fn reflect((v, scale): &(Vector, f64), y: &mut Vector) {
     let share = scale * product(v, y);
     y.iter_mut().zip(v).for_each(|(y, v)| *y -= v * share);
