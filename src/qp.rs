@@ -10,7 +10,9 @@
 //! answer unique, whatever the ranks of A and E: among equally good answers it is the one of smallest norm.
 //!
 //! The method is a primal active set with the equalities eliminated by an orthogonal basis of their null space
-//! (J. Nocedal and S. J. Wright, Numerical Optimization, chapter 16). The kink of a penalty at 0 is one more
+//! (J. Nocedal and S. J. Wright, Numerical Optimization, chapter 16). It starts where the variables are guessed to
+//! be; those that this takes beyond their bounds are held there, and it is tried again. Only if that comes to
+//! nothing, the equalities alone are solved first. The kink of a penalty at 0 is one more
 //! place where a variable can rest. The objective falls with each step that has a length; while steps have
 //! none, the least index enters and leaves, with which no working set comes twice (Y.-Y. Chang and
 //! R. W. Cottle, Mathematical Programming 18 (1980) 127-137). No memory is allocated.

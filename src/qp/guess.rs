@@ -57,7 +57,7 @@ impl Search<'_> {
         let mut held = false;
         for _ in 1..directions.max(2) {
             let (mut farthest, mut most) = (0, 0.0);
-            for (i, beyond) in beyond.iter().enumerate() {
+            for (i, beyond) in beyond.iter().enumerate().take(self.problem.variables) {
                 if *beyond > most {
                     (farthest, most) = (i, *beyond);
                 }

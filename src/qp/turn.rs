@@ -33,7 +33,7 @@ impl Turn {
         self.free = free.map(|free| if free { 1.0 } else { 0.0 });
         self.left = self.free;
         self.count = 0;
-        self.remaining = free.iter().filter(|free| **free).count();
+        self.remaining = free.iter().map(|free| usize::from(*free)).sum();
     }
 
     /// Number of coordinates that no pivot has.
