@@ -64,6 +64,7 @@ impl Rows {
     }
 
     /// The equations one by one.
+    #[inline]
     fn iter(&self) -> impl Iterator<Item = (&Vector, f64)> {
         self.coefficients[..self.count].iter().zip(self.values[..self.count].iter().copied())
     }
@@ -115,6 +116,7 @@ impl Problem {
     }
 
     /// `x` within the bounds.
+    #[inline]
     fn bounded(&self, i: usize, x: f64) -> f64 {
         let x = if x < self.lower[i] { self.lower[i] } else { x };
         if x > self.upper[i] { self.upper[i] } else { x }

@@ -78,11 +78,13 @@ impl NullSpace {
     }
 
     /// Number of independent equalities.
+    #[inline]
     pub fn rank(&self) -> usize {
         self.rank
     }
 
     /// Dimension of the null space.
+    #[inline]
     pub fn dimension(&self) -> usize {
         self.turn.remaining()
     }
@@ -113,6 +115,7 @@ impl NullSpace {
     }
 
     /// What the row with these turned `coefficients` has at `y` because of the equalities.
+    #[inline]
     pub fn seen(&self, coefficients: &Vector, y: &Vector) -> f64 {
         self.pivots().iter().map(|pivot| coefficients[*pivot] * y[*pivot]).sum()
     }

@@ -122,6 +122,7 @@ impl<'a> Search<'a> {
     }
 
     /// Brings the null space up to date.
+    #[inline]
     pub(super) fn span(&mut self) {
         self.space.span(self.equalities, self.size, &self.free);
     }
@@ -161,6 +162,7 @@ impl<'a> Search<'a> {
     }
 
     /// Goes this `share` of the `step`.
+    #[inline]
     pub(super) fn advance(&mut self, step: &Vector, share: f64) {
         self.x.iter_mut().zip(step).for_each(|(x, step)| *x += share * step);
     }

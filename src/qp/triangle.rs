@@ -17,11 +17,13 @@ pub(super) struct Triangle {
 
 impl Triangle {
     /// Number of coordinates.
+    #[inline]
     pub fn dimension(&self) -> usize {
         self.dimension
     }
 
     /// One more coordinate z, and its ridge `weight` (z - `center`)^2.
+    #[inline]
     pub fn grow(&mut self, weight: f64, center: f64) {
         self.weights[self.dimension] = weight;
         self.right[self.dimension] = center;

@@ -37,16 +37,19 @@ impl Turn {
     }
 
     /// Number of coordinates that no pivot has.
+    #[inline]
     pub fn remaining(&self) -> usize {
         self.remaining
     }
 
     /// The pivots in their order.
+    #[inline]
     pub fn pivots(&self) -> &[usize] {
         &self.pivots[..self.count]
     }
 
     /// What no pivot has of the turned `row`.
+    #[inline]
     pub fn left(&self, row: &Vector) -> Vector {
         std::array::from_fn(|i| row[i] * self.left[i])
     }
@@ -70,6 +73,7 @@ impl Turn {
     }
 
     /// Only the first `count` reflections remain.
+    #[inline]
     pub fn truncate(&mut self, count: usize) {
         self.pivots[count..self.count].iter().for_each(|pivot| self.left[*pivot] = 1.0);
         self.remaining += self.count - count;
