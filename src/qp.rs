@@ -10,16 +10,19 @@
 //! answer unique, whatever the ranks of A and E: among equally good answers it is the one of smallest norm.
 //!
 //! The method is a primal active set with the equalities eliminated by an orthogonal basis of their null space
-//! (J. Nocedal and S. J. Wright, Numerical Optimization, chapter 16). The kink of a penalty at 0 is one more
+//! (J. Nocedal and S. J. Wright, Numerical Optimization, chapter 16). It starts where the variables are guessed to
+//! be; those that this takes beyond their bounds are held there, and it is tried again. Only if that comes to
+//! nothing, the equalities alone are solved first. The kink of a penalty at 0 is one more
 //! place where a variable can rest. The objective falls with each step that has a length; while steps have
 //! none, the least index enters and leaves, with which no working set comes twice (Y.-Y. Chang and
 //! R. W. Cottle, Mathematical Programming 18 (1980) 127-137). No memory is allocated.
 
+mod guess;
 mod null_space;
 mod search;
 mod triangle;
+mod turn;
 
-use null_space::NullSpace;
 use search::Search;
 
 /// Largest number of variables.
@@ -29,6 +32,9 @@ pub const MAX_ROWS: usize = 4;
 
 /// Equalities are met if they are off by less than this share of what their terms could be.
 const MET: f64 = 1e-10;
+
+/// What is below this share of its terms is rounding.
+const ROUNDING: f64 = 1e-14;
 
 /// Weight of |x|^2 beside |E x - e|^2 for an E of unit size: it decides between equal answers only.
 const FIRST_RIDGE: f64 = 1e-18;
@@ -58,8 +64,9 @@ impl Rows {
     }
 
     /// The equations one by one.
+    #[inline]
     fn iter(&self) -> impl Iterator<Item = (&Vector, f64)> {
-        self.coefficients.iter().zip(self.values).take(self.count)
+        self.coefficients[..self.count].iter().zip(self.values[..self.count].iter().copied())
     }
 
     /// Largest coefficient.
@@ -67,10 +74,10 @@ impl Rows {
         self.iter().map(|(row, _)| largest(row)).fold(0.0, f64::max)
     }
 
-    /// Whether `x` solves them, as far as rounding allows.
-    fn met_by(&self, x: &Vector) -> bool {
-        let farthest = largest(x);
-        self.iter().all(|(row, value)| (product(row, x) - value).abs() <= MET * (largest(row) * farthest + value.abs()))
+    /// Whether `x` solves them, as far as rounding allows; it does on the way from `start`, too.
+    fn met_by(&self, x: &Vector, start: &Vector) -> bool {
+        let reach = MET * largest(x) + ROUNDING * largest(start);
+        self.iter().all(|(row, value)| (product(row, x) - value).abs() <= largest(row) * reach + MET * value.abs())
     }
 }
 
@@ -109,8 +116,10 @@ impl Problem {
     }
 
     /// `x` within the bounds.
+    #[inline]
     fn bounded(&self, i: usize, x: f64) -> f64 {
-        x.max(self.lower[i]).min(self.upper[i])
+        let x = if x < self.lower[i] { self.lower[i] } else { x };
+        if x > self.upper[i] { self.upper[i] } else { x }
     }
 }
 
@@ -165,39 +174,47 @@ pub struct Solution {
 /// Solves `problem`; `guess` where the variables will be saves time and changes nothing but rounding.
 #[must_use]
 pub fn solve(problem: &Problem, guess: &Places) -> Solution {
-    let n = problem.variables;
-    let none = Rows::default();
     let mut search = Search::new(&problem.objective, &problem.equalities, problem, problem.ridge, &problem.penalty);
-    let mut outcome = Outcome::Solved;
-    if !search.take(guess) {
-        // First the equalities alone, without anything else.
-        let size = problem.equalities.size();
-        let ridge = FIRST_RIDGE * if size > 0.0 { size * size } else { 1.0 };
-        let no_penalty = [0.0; MAX_VARIABLES];
-        let mut first = Search::new(&problem.equalities, &none, problem, ridge, &no_penalty);
-        first.start(search.x);
-        let finished = first.descend();
-        let mut movable = first.movable;
-        if !finished {
-            outcome = Outcome::Unfinished;
-        } else if !problem.equalities.met_by(&first.x) {
-            // Bounds against which the equalities press stay where they are: their error is the least one.
-            outcome = Outcome::Missed;
-            let (pull, size) = pull(&problem.equalities, &first.x);
-            for i in 0..n {
-                movable[i] &= first.free[i] || pull[i].abs() <= PULL * size;
-            }
-        }
-        search.movable = movable;
-        search.start(first.x);
+    let mut places = *guess;
+    let mut taken = search.take(&places);
+    while !taken && search.hold(&mut places) {
+        taken = search.take(&places);
     }
+    let mut outcome = if taken { Outcome::Solved } else { equalities_first(&mut search, problem) };
     search.complete();
     if !search.descend() {
         outcome = Outcome::Unfinished;
     }
     let mut x = search.x;
-    (0..n).for_each(|i| x[i] = problem.bounded(i, x[i]));
+    (0..problem.variables).for_each(|i| x[i] = problem.bounded(i, x[i]));
     Solution { x, places: search.places(), outcome }
+}
+
+/// Lets `search` start where the equalities are met as well as the bounds allow, without anything else.
+#[inline(never)]
+fn equalities_first(search: &mut Search<'_>, problem: &Problem) -> Outcome {
+    let equalities = &problem.equalities;
+    let size = equalities.size();
+    let ridge = FIRST_RIDGE * if size > 0.0 { size * size } else { 1.0 };
+    let (none, no_penalty) = (Rows::default(), [0.0; MAX_VARIABLES]);
+    let mut first = Search::new(equalities, &none, problem, ridge, &no_penalty);
+    first.start(&search.x);
+    let mut outcome = Outcome::Solved;
+    if !first.descend() {
+        outcome = Outcome::Unfinished;
+    } else if !equalities.met_by(&first.x, &search.x) {
+        // Bounds against which the equalities press stay where they are: their error is the least one.
+        outcome = Outcome::Missed;
+        let (pull, size) = pull(equalities, &first.x);
+        for (i, movable) in search.movable.iter_mut().enumerate() {
+            *movable &= first.free[i] || pull[i].abs() <= PULL * size;
+        }
+    }
+    search.start(&first.x);
+    if outcome != Outcome::Solved {
+        search.keep();
+    }
+    outcome
 }
 
 /// How strongly the error of `rows` at `x` pulls at each variable, and how strongly it could.
@@ -216,18 +233,11 @@ fn largest(x: &Vector) -> f64 {
     x.iter().fold(0.0, |largest, x| if x.abs() > largest { x.abs() } else { largest })
 }
 
-/// Scalar product of all numbers: in pairs, which takes half the time of one after the other.
+/// Scalar product; the sum of halves takes less time than one number after the other.
 #[inline]
 fn product(a: &Vector, b: &Vector) -> f64 {
-    let mut sums = [0.0; 2];
-    for (a, b) in a.chunks_exact(2).zip(b.chunks_exact(2)) {
-        sums[0] += a[0] * b[0];
-        sums[1] += a[1] * b[1];
-    }
-    sums[0] + sums[1]
-}
-
-/// Scalar product of the first ones.
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
+    let terms: Vector = std::array::from_fn(|i| a[i] * b[i]);
+    let fours: [f64; 4] = std::array::from_fn(|i| terms[i] + terms[i + 4]);
+    let twos: [f64; 2] = std::array::from_fn(|i| fours[i] + fours[i + 2]);
+    twos[0] + twos[1]
 }

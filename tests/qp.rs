@@ -308,3 +308,52 @@ fn more_than_there_is_room_for_is_ignored() {
     assert_eq!(problem.variables, MAX_VARIABLES);
     assert_eq!(solve(&problem, &FREE).outcome, Outcome::Solved);
 }
+
+#[test]
+fn scales_do_not_matter() {
+    // Powers of two leave every digit as it is.
+    let scale = |power: i32| 2.0_f64.powi(power);
+    for seed in 0..2000 {
+        let mut case = nasty(&mut Random(seed));
+        let plain = solve(&case.problem, &FREE);
+        for (rows, right, variables) in [(40, -90, 30), (-100, 60, -20), (0, 0, 200)] {
+            let mut problem = Problem::new(case.n(), case.problem.ridge * scale(2 * right));
+            let all = [
+                (&mut problem.equalities, &mut case.equalities, rows),
+                (&mut problem.objective, &mut case.objective, right),
+            ];
+            for (scaled, (matrix, value), power) in all {
+                for (row, value) in matrix.row_iter().zip(value.iter()) {
+                    let row: Vec<f64> = row.iter().map(|a| a * scale(power)).collect();
+                    scaled.push(&row, value * scale(power + variables));
+                }
+            }
+            for i in 0..case.n() {
+                problem.penalty[i] = case.problem.penalty[i] * scale(2 * right + variables);
+                problem.lower[i] = case.problem.lower[i] * scale(variables);
+                problem.upper[i] = case.problem.upper[i] * scale(variables);
+            }
+            let scaled = solve(&problem, &FREE);
+            assert_eq!((scaled.outcome, scaled.places), (plain.outcome, plain.places), "seed {seed}");
+            for (scaled, plain) in scaled.x.iter().zip(plain.x) {
+                assert!((scaled - plain * scale(variables)).abs() <= 1e-12 * scale(variables), "seed {seed}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_equalities_hold_where_penalties_drive_far_away() {
+    // Without the penalties' kinks, the free variables would run away to 1e10.
+    let mut problem = Problem::new(4, 1e-10);
+    let row = [-0.75, 1.6, -1.1, 0.16];
+    problem.equalities.push(&row, 0.7);
+    problem.penalty[..3].copy_from_slice(&[1.8, 1.1, 0.5]);
+    (problem.lower[0], problem.upper[0]) = (1.0, 1.2);
+    for guess in [FREE, [Place::Below; MAX_VARIABLES], [Place::Lower; MAX_VARIABLES]] {
+        let found = solve(&problem, &guess);
+        let left: f64 = row.iter().zip(found.x).map(|(a, x)| a * x).sum();
+        assert!((left - 0.7).abs() < 1e-14, "{guess:?}: {left}");
+        assert_eq!(found.x[..3], [1.0, 0.0, 0.0]);
+    }
+}

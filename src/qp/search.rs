@@ -1,7 +1,8 @@
 //! From one working set to the next, downhill.
 
+use super::null_space::NullSpace;
 use super::triangle::Triangle;
-use super::{MAX_ROWS, MAX_VARIABLES, NullSpace, Place, Places, Problem, Rows, Vector, largest, product};
+use super::{MAX_ROWS, MAX_VARIABLES, Problem, ROUNDING, Rows, Vector, largest, product};
 
 /// Working sets at most; a few are enough, and arithmetic beyond its range alone leads here.
 const STEPS: usize = 100;
@@ -9,31 +10,35 @@ const STEPS: usize = 100;
 /// Slopes below this share of their terms are none.
 const FLAT: f64 = 1e-12;
 
+/// The equalities' multipliers, and slopes with them, are off by this share of the slopes without.
+const BLUR: f64 = 2e-15;
+
 /// Variables that move by less than this share of the largest motion are at rest.
 const AT_REST: f64 = 1e-12;
 
-/// Steps below this share of the variables have no length.
-const ROUNDING: f64 = 1e-14;
-
 /// Minimises |A x - b|^2 + ridge |x|^2 + sum of penalties within the bounds while E x keeps its value.
 pub(super) struct Search<'a> {
-    objective: &'a Rows,
-    equalities: &'a Rows,
-    problem: &'a Problem,
-    ridge: f64,
-    penalty: &'a Vector,
+    pub(super) objective: &'a Rows,
+    pub(super) equalities: &'a Rows,
+    pub(super) problem: &'a Problem,
+    pub(super) ridge: f64,
+    pub(super) penalty: &'a Vector,
+    /// What the left-hand sides of the equalities are to be.
+    pub(super) wanted: [f64; MAX_ROWS],
+    /// Largest coefficient of the equalities.
+    pub(super) size: f64,
     /// Where it is.
-    pub x: Vector,
+    pub(super) x: Vector,
     /// Which variables are in motion; the others rest at an end or at a kink.
-    pub free: [bool; MAX_VARIABLES],
+    pub(super) free: [bool; MAX_VARIABLES],
     /// Which may ever move.
-    pub movable: [bool; MAX_VARIABLES],
+    pub(super) movable: [bool; MAX_VARIABLES],
     /// Sign of each penalised variable in motion: its penalty is linear up to 0.
-    side: Vector,
+    pub(super) side: Vector,
     /// The directions in which the free variables may move.
-    space: NullSpace,
+    pub(super) space: NullSpace,
     /// Whether they are at their minimum already.
-    settled: bool,
+    pub(super) settled: bool,
 }
 
 impl<'a> Search<'a> {
@@ -46,77 +51,42 @@ impl<'a> Search<'a> {
         ridge: f64,
         penalty: &'a Vector,
     ) -> Self {
-        let n = problem.variables;
-        let within = |i: usize| if i < n { problem.bounded(i, 0.0) } else { 0.0 };
+        let (mut x, mut movable) = ([0.0; MAX_VARIABLES], [false; MAX_VARIABLES]);
+        for i in 0..problem.variables {
+            x[i] = problem.bounded(i, 0.0);
+            movable[i] = problem.lower[i] < problem.upper[i];
+        }
         Self {
             objective,
             equalities,
             problem,
             ridge,
             penalty,
-            x: std::array::from_fn(within),
+            wanted: equalities.values,
+            size: equalities.size(),
+            x,
             free: [false; MAX_VARIABLES],
-            movable: std::array::from_fn(|i| i < n && problem.lower[i] < problem.upper[i]),
+            movable,
             side: [1.0; MAX_VARIABLES],
             space: NullSpace::EMPTY,
             settled: false,
         }
     }
 
-    /// Puts the variables where `guess` has them, the free ones at their minimum with the equalities; true if
-    /// the bounds and the equalities then hold.
-    pub fn take(&mut self, guess: &Places) -> bool {
-        let Problem { variables: n, lower, upper, .. } = self.problem;
-        for i in 0..*n {
-            let (rest, x, side) = match guess[i] {
-                Place::Lower => (lower[i].is_finite(), lower[i], 1.0),
-                Place::Upper => (upper[i].is_finite(), upper[i], 1.0),
-                Place::Zero => (self.penalty[i] > 0.0 && lower[i] <= 0.0 && upper[i] >= 0.0, 0.0, 1.0),
-                Place::Below => (false, 0.0, -1.0),
-                Place::Above => (false, 0.0, 1.0),
-            };
-            self.free[i] = self.movable[i] && !rest;
-            self.side[i] = if self.penalty[i] == 0.0 { 1.0 } else { side };
-            if self.movable[i] {
-                self.x[i] = if rest { x } else { 0.0 };
-            }
-        }
-        self.space.span(self.equalities, &self.free);
-        let mut missing = [0.0; MAX_ROWS];
-        for (missing, (row, value)) in missing.iter_mut().zip(self.equalities.iter()) {
-            *missing = value - product(row, &self.x);
-        }
-        let onto = self.space.particular(&missing);
-        self.scatter(&onto);
-        let step = self.step();
-        self.scatter(&step);
-        let within = (0..*n).all(|i| self.x[i].is_finite() && self.x[i] >= lower[i] && self.x[i] <= upper[i]);
-        if within && self.equalities.met_by(&self.x) {
-            let side = self.side;
-            self.take_sides();
-            self.settled = self.side == side;
-            return true;
-        }
-        // As near as the bounds allow; whatever is no number is forgotten.
-        for i in 0..*n {
-            let x = if self.x[i].is_finite() { self.x[i] } else { 0.0 };
-            self.x[i] = self.problem.bounded(i, x);
-        }
-        false
-    }
-
-    /// Puts the variables at `x` within the bounds; those at an end or at a kink rest.
-    pub fn start(&mut self, x: Vector) {
-        self.x = x;
+    /// Puts the variables at `x`, or as near as the bounds allow; those at an end or at a kink rest. What is no
+    /// number is forgotten.
+    pub fn start(&mut self, x: &Vector) {
         self.settled = false;
-        for (i, x) in x.iter().enumerate().take(self.problem.variables) {
-            let inside = *x > self.problem.lower[i] && *x < self.problem.upper[i];
-            self.free[i] = self.movable[i] && inside && !(self.penalty[i] > 0.0 && *x == 0.0);
+        for i in 0..self.problem.variables {
+            let x = self.problem.bounded(i, if x[i].is_finite() { x[i] } else { 0.0 });
+            let inside = x > self.problem.lower[i] && x < self.problem.upper[i];
+            self.x[i] = x;
+            self.free[i] = self.movable[i] && inside && !(self.penalty[i] > 0.0 && x == 0.0);
         }
         self.take_sides();
     }
 
-    fn take_sides(&mut self) {
+    pub(super) fn take_sides(&mut self) {
         for i in 0..self.problem.variables {
             let positive = self.x[i] > 0.0 || (self.x[i] == 0.0 && self.problem.upper[i] > 0.0);
             self.side[i] = if positive || self.penalty[i] == 0.0 { 1.0 } else { -1.0 };
@@ -147,29 +117,35 @@ impl<'a> Search<'a> {
 
     /// Number of independent equalities among the `free` variables.
     fn rank(&mut self, free: [bool; MAX_VARIABLES]) -> usize {
-        self.space.span(self.equalities, &free);
+        self.space.span(self.equalities, self.size, &free);
         self.space.rank()
+    }
+
+    /// Brings the null space up to date.
+    #[inline]
+    pub(super) fn span(&mut self) {
+        self.space.span(self.equalities, self.size, &self.free);
     }
 
     /// Walks to the minimum; false if it was not reached.
     pub fn descend(&mut self) -> bool {
         let mut stalled = false;
         for _ in 0..STEPS {
-            self.space.span(self.equalities, &self.free);
+            self.span();
             if !std::mem::take(&mut self.settled) {
                 let step = self.step();
                 let before = self.x;
-                if !self.space.indices().iter().zip(&step).all(|(i, step)| (before[*i] + step).is_finite()) {
+                if !before.iter().zip(&step).all(|(x, step)| (x + step).is_finite()) {
                     return false;
                 }
                 if let Some((share, i, end)) = self.first_stop(&step) {
-                    self.scatter(&step.map(|step| step * share));
+                    self.advance(&step, share);
                     self.x[i] = end;
                     self.free[i] = false;
                     stalled = self.rests_at(&before);
                     continue;
                 }
-                self.scatter(&step);
+                self.advance(&step, 1.0);
                 stalled = stalled && self.rests_at(&before);
             }
             let Some((i, side)) = self.entering(stalled) else { return true };
@@ -185,32 +161,73 @@ impl<'a> Search<'a> {
         self.x.iter().zip(before).all(|(x, before)| (x - before).abs() <= ROUNDING * size)
     }
 
-    /// Moves the free variables by `step`.
-    fn scatter(&mut self, step: &Vector) {
-        for (i, step) in self.space.indices().iter().zip(step) {
-            self.x[*i] += step;
-        }
+    /// Goes this `share` of the `step`.
+    #[inline]
+    pub(super) fn advance(&mut self, step: &Vector, share: f64) {
+        self.x.iter_mut().zip(step).for_each(|(x, step)| *x += share * step);
     }
 
-    /// The way to the minimum over the free variables, regardless of their ends.
-    fn step(&self) -> Vector {
-        let space = &self.space;
-        if space.dimension() == 0 {
-            return [0.0; MAX_VARIABLES];
+    /// The way to the minimum over the free variables with the equalities, regardless of their ends.
+    pub(super) fn step(&mut self) -> Vector {
+        let missing = self.missing();
+        let mut y = [0.0; MAX_VARIABLES];
+        if self.space.dimension() == 0 {
+            self.space.put(&mut y, &missing);
+            return self.space.turn.back(y);
         }
-        let here = space.coordinates(space.part(&self.x)).map(|x| -x);
-        let mut triangle = Triangle::new(self.ridge, space.inner(&here));
+        // Without objective: the ridge and the penalties are ridge |x + slopes / ridge|^2.
+        let slopes = self.slopes();
+        y = self.space.turn.forth(&std::array::from_fn(|i| -(self.x[i] + slopes[i] / self.ridge)));
+        self.space.put(&mut y, &missing);
+        // Each row of the objective adds one coordinate in which it lies, together with those before.
+        let rank = self.space.rank();
+        let mut triangle = Triangle::default();
         for (row, value) in self.objective.iter() {
-            let coordinates = space.coordinates(space.part(row));
-            triangle.add(space.inner(&coordinates), value - product(row, &self.x));
+            let coordinates = self.space.turn.forth(row);
+            let error = value - product(row, &self.x) - self.space.seen(&coordinates, &y);
+            let turn = &mut self.space.turn;
+            let mut short = [0.0; MAX_ROWS];
+            short.iter_mut().zip(&turn.pivots()[rank..]).for_each(|(short, pivot)| *short = coordinates[*pivot]);
+            let left = turn.left(&coordinates);
+            let squared = product(&left, &left);
+            if squared > ROUNDING * ROUNDING * product(&coordinates, &coordinates) {
+                let (pivot, coordinate) = turn.add(&left, squared.sqrt());
+                turn.last(&mut y);
+                short[triangle.dimension()] = coordinate;
+                triangle.grow(self.ridge, y[pivot]);
+            }
+            triangle.add(short, error);
         }
-        let slope = space.coordinates(space.part(&self.slopes()));
-        space.direction(&triangle.minimum(space.inner(&slope)))
+        let turn = &mut self.space.turn;
+        turn.pivots()[rank..].iter().zip(triangle.minimum()).for_each(|(pivot, z)| y[*pivot] = z);
+        let step = turn.back(y);
+        turn.truncate(rank);
+        step
+    }
+
+    /// What the equalities' left-hand sides lack.
+    fn missing(&self) -> [f64; MAX_ROWS] {
+        let mut missing = [0.0; MAX_ROWS];
+        for ((missing, wanted), (row, _)) in missing.iter_mut().zip(&self.wanted).zip(self.equalities.iter()) {
+            *missing = wanted - product(row, &self.x);
+            if missing.abs() <= ROUNDING * (wanted.abs() + self.size * largest(&self.x)) {
+                *missing = 0.0;
+            }
+        }
+        missing
+    }
+
+    /// Lets the equalities keep what they have.
+    pub fn keep(&mut self) {
+        for (wanted, (row, _)) in self.wanted.iter_mut().zip(self.equalities.iter()) {
+            *wanted = product(row, &self.x);
+        }
     }
 
     /// Half the slopes of the penalties of variables in motion.
     fn slopes(&self) -> Vector {
-        std::array::from_fn(|i| 0.5 * self.penalty[i] * self.side[i])
+        let free = &self.space.turn.free;
+        std::array::from_fn(|i| 0.5 * self.penalty[i] * self.side[i] * free[i])
     }
 
     /// Where a variable in motion has to stop.
@@ -227,7 +244,7 @@ impl<'a> Search<'a> {
     fn first_stop(&self, step: &Vector) -> Option<(f64, usize, f64)> {
         let fastest = largest(step);
         let mut first: Option<(f64, usize, f64)> = None;
-        for (&i, &step) in self.space.indices().iter().zip(step) {
+        for (i, &step) in step.iter().enumerate().take(self.problem.variables) {
             if step.abs() <= AT_REST * fastest {
                 continue;
             }
@@ -244,8 +261,7 @@ impl<'a> Search<'a> {
     /// The variable at rest that is to move, and the side on which: the steepest one, or that of the least
     /// index.
     fn entering(&self, least_index: bool) -> Option<(usize, f64)> {
-        let at_rest = |i: &usize| self.movable[*i] && !self.free[*i];
-        if !(0..self.problem.variables).any(|i| at_rest(&i)) {
+        if self.free == self.movable {
             return None;
         }
         // Half the gradient without penalties.
@@ -255,15 +271,14 @@ impl<'a> Search<'a> {
             gradient.iter_mut().zip(row).for_each(|(gradient, coefficient)| *gradient += coefficient * error);
         }
         let slopes = self.slopes();
-        let total = std::array::from_fn(|i| gradient[i] + slopes[i]);
-        let space = &self.space;
-        let multipliers = space.multipliers(&space.coordinates(space.part(&total)));
+        let total: Vector = std::array::from_fn(|i| gradient[i] + slopes[i]);
+        let multipliers = self.space.multipliers(&self.space.turn.forth(&total));
         for (multiplier, (row, _)) in multipliers.iter().zip(self.equalities.iter()) {
             gradient.iter_mut().zip(row).for_each(|(gradient, coefficient)| *gradient -= coefficient * multiplier);
         }
 
         let mut best: Option<(f64, usize, f64)> = None;
-        for i in (0..self.problem.variables).filter(at_rest) {
+        for i in (0..self.problem.variables).filter(|i| self.movable[*i] && !self.free[*i]) {
             let (x, weight) = (self.x[i], 0.5 * self.penalty[i]);
             let upwards = if x < 0.0 { -weight } else { weight };
             let downwards = if x > 0.0 { weight } else { -weight };
@@ -275,7 +290,7 @@ impl<'a> Search<'a> {
                 (gain, side) = (gradient[i] + downwards, if x > 0.0 { 1.0 } else { -1.0 });
             }
             if gain > 0.0
-                && gain > FLAT * (self.terms(i, &multipliers) + weight)
+                && gain > FLAT * (self.terms(i, &multipliers) + weight) + BLUR * largest(&total)
                 && best.is_none_or(|(most, ..)| gain > most)
             {
                 best = Some((gain, i, side));
@@ -296,22 +311,5 @@ impl<'a> Search<'a> {
         let equalities =
             self.equalities.iter().zip(multipliers).map(|((row, _), multiplier)| (row[i] * multiplier).abs());
         (self.ridge * self.x[i]).abs() + objective.sum::<f64>() + equalities.sum::<f64>()
-    }
-
-    /// Where the variables are.
-    pub fn places(&self) -> Places {
-        let Problem { variables: n, lower, upper, .. } = self.problem;
-        std::array::from_fn(|i| {
-            let x = self.x[i];
-            if i >= *n || self.free[i] {
-                if self.side[i] > 0.0 { Place::Above } else { Place::Below }
-            } else if x <= lower[i] {
-                Place::Lower
-            } else if x >= upper[i] {
-                Place::Upper
-            } else {
-                Place::Zero
-            }
-        })
     }
 }
