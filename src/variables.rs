@@ -44,8 +44,8 @@ impl Bounds {
     pub const ANY: Self = Self { smallest: f64::MIN };
     /// Zero or more.
     pub const NON_NEGATIVE: Self = Self { smallest: 0.0 };
-    /// More than zero.
-    pub const POSITIVE: Self = Self { smallest: 0.0_f64.next_up() };
+    /// More than zero. Denormal numbers do not count: a host may have told the processor to take them for zero.
+    pub const POSITIVE: Self = Self { smallest: f64::MIN_POSITIVE };
 
     /// Whether `value` is finite and not below the bound.
     #[inline]
@@ -344,7 +344,7 @@ mod tests {
 
     #[test]
     fn bounds_admit_finite_numbers_from_their_ends_on() {
-        let least = f64::from_bits(1);
+        let least = f64::MIN_POSITIVE;
         for bounds in [Bounds::ANY, Bounds::NON_NEGATIVE, Bounds::POSITIVE] {
             assert!([least, f64::MAX].into_iter().all(|value| bounds.admit(value)), "{bounds}");
             let beyond = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
@@ -352,7 +352,7 @@ mod tests {
         }
         let admitted = |value| [Bounds::ANY, Bounds::NON_NEGATIVE, Bounds::POSITIVE].map(|bounds| bounds.admit(value));
         assert_eq!([f64::MIN, -least].map(admitted), [[true, false, false]; 2]);
-        assert_eq!([-0.0, 0.0].map(admitted), [[true, true, false]; 2]);
+        assert_eq!([-0.0, 0.0, f64::from_bits(1)].map(admitted), [[true, true, false]; 3]);
     }
 
     #[test]

@@ -59,7 +59,7 @@ impl<const N: usize> Outset<N> {
         state.position += way;
         let mut ahead = Situation { state: *state, ..*here };
         let way = Displacement::small(&self.dynamics.vehicle, &way);
-        ahead.node.follow(&self.dynamics.vehicle, &here.node, &way, state.held, state.rate);
+        ahead.node.follow(&self.dynamics.vehicle, &here.node, &way, state.held, &state.rate);
         (ahead, self.now.carried + gained)
     }
 

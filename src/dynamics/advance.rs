@@ -58,7 +58,7 @@ impl<const N: usize> Dynamics<N> {
         let mut flow = situation.flow(self.base);
         let Situation { state, turn, node } = situation;
         let (start, momentum) = (state.position, state.momentum);
-        node.move_at(motion.rate);
+        node.move_at(&motion.rate);
         state.contact = self.touches(&flow, node, state.held);
         let mut scene = Scene {
             loads,

@@ -146,7 +146,7 @@ impl<const N: usize> Dynamics<N> {
         let explained = |i: usize| links.clone().map(|j| node.inertia(i, j) * node.rate[j]).sum::<f64>();
         let explained = SVector::from_fn(|i, _| if driven.joints[i] { explained(i) } else { 0.0 });
         let rate = self.driven_part(node, driven, &(momentum - explained), base);
-        node.move_at(node.rate + rate);
+        node.move_at(&(node.rate + rate));
     }
 
     /// How fast the payload gives way to a unit impulse upwards \[1/kg\].
@@ -156,7 +156,7 @@ impl<const N: usize> Dynamics<N> {
         let h = Twist { linear: up, angular: cross(place, up) };
         let momentum = SVector::from_fn(|i, _| cross(place - node.posture.joint[i], up));
         let mut node = *node;
-        node.move_at(SVector::zeros());
+        node.move_at(&SVector::zeros());
         self.move_driven(&mut node, driven, h, &momentum);
         node.velocity_at(&self.vehicle, place, self.base_motion(&node, h, node.arm)).dot(&up)
     }

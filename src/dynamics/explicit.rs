@@ -58,7 +58,7 @@ impl<const N: usize> Dynamics<N> {
         // Small turns instead of sines spare a third of the step.
         let turned = Turn::by_small(state.velocity.z * size);
         end.turn = if self.base.turns_arm() { here.turn.then(turned) } else { Turn::NONE };
-        end.node.follow(&self.vehicle, &here.node, &Displacement::small(&self.vehicle, way), state.held, *rate);
+        end.node.follow(&self.vehicle, &here.node, &Displacement::small(&self.vehicle, way), state.held, rate);
     }
 
     /// Displaces the coordinates in `situation` by a `way` so short that all is linear in it, after which the rates are
@@ -71,7 +71,7 @@ impl<const N: usize> Dynamics<N> {
         state.rate = *rate;
         let posture = node.posture;
         node.posture.follow(&self.vehicle, &posture, &Displacement::tiny(&self.vehicle, way));
-        node.move_at(*rate);
+        node.move_at(rate);
         if self.base.turns_arm() {
             *turn = turn.then(Turn::by_tiny(base.angular));
         }

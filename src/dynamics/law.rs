@@ -67,7 +67,7 @@ impl<const N: usize> Node<N> {
     pub fn take(&mut self, vehicle: &Vehicle<N>, q: &SVector<f64, N>, held: bool, rate: &SVector<f64, N>) {
         self.posture.take(vehicle, q);
         self.matrix.sum_up(vehicle, &self.posture, held);
-        self.move_at(*rate);
+        self.move_at(rate);
     }
 
     /// Becomes the arm that is `way` from the node `from`, moving at `rate`.
@@ -80,7 +80,7 @@ impl<const N: usize> Node<N> {
         from: &Self,
         way: &Displacement<N>,
         held: bool,
-        rate: SVector<f64, N>,
+        rate: &SVector<f64, N>,
     ) {
         self.posture.follow(vehicle, &from.posture, way);
         self.matrix.sum_up(vehicle, &self.posture, held);
@@ -89,9 +89,9 @@ impl<const N: usize> Node<N> {
 
     /// The same arm, moving at `rate`.
     #[inline(never)]
-    pub fn move_at(&mut self, rate: SVector<f64, N>) {
-        self.rate = rate;
-        self.arm = self.matrix.sum_of_rates(&rate);
+    pub fn move_at(&mut self, rate: &SVector<f64, N>) {
+        self.arm = self.matrix.sum_of_rates(rate);
+        self.rate = *rate;
     }
 
     /// Velocity of a point of the last link at `place`, while the base moves with `v`; UAV frame.

@@ -47,10 +47,14 @@ impl<const N: usize> Dynamics<N> {
         let [begin, middle] = &mut step.nodes;
         let way = |t: f64| Displacement::small(&self.vehicle, &motion.way(t));
         let first_half = way(half);
-        middle.follow(&self.vehicle, begin, &first_half, *held, motion.rate_after(half));
-        // At constant rates the second half is like the first one.
-        let (from, way) = if motion.is_steady() { (&*middle, first_half) } else { (&*begin, way(size)) };
-        end.follow(&self.vehicle, from, &way, *held, motion.rate_after(size));
+        if motion.is_steady() {
+            // The second half is like the first one.
+            middle.follow(&self.vehicle, begin, &first_half, *held, &motion.rate);
+            end.follow(&self.vehicle, middle, &first_half, *held, &motion.rate);
+        } else {
+            middle.follow(&self.vehicle, begin, &first_half, *held, &motion.rate_after(half));
+            end.follow(&self.vehicle, begin, &way(size), *held, &motion.rate_after(size));
+        }
         (step.elapsed, step.size, step.held) = (scene.elapsed, size, scene.held);
 
         let mut room = None;
@@ -128,7 +132,7 @@ mod tests {
         let end_in = |steps: u32| {
             let size = 0.4 / f64::from(steps);
             let (mut flow, mut node) = (start.flow(BaseModel::Full), start.node);
-            node.move_at(motion.rate);
+            node.move_at(&motion.rate);
             let mut step = Internal::none(&node);
             let scene = Scene {
                 loads: &loads,

@@ -40,7 +40,7 @@ impl<const N: usize> Dynamics<N> {
         let Situation { state, turn, node } = situation;
         let (start, before) = (state.position, state.momentum);
         // Momenta stay where imposed rates and masses jump: the rates of the driven joints jump along.
-        node.move_at(motion.rate);
+        node.move_at(&motion.rate);
         self.move_driven(node, driven, self.momentum_in_uav(&phase.flow), &driven.momentum);
         state.contact = self.touches(&phase.flow, node, state.held);
         let mut elapsed = 0.0;

@@ -74,7 +74,7 @@ impl<const N: usize> Dynamics<N> {
             let way = scene.motion.way(t) + (at.way - phase.way);
             let mut there = *node;
             let way = Displacement::small(&self.vehicle, &way);
-            there.follow(&self.vehicle, node, &way, scene.held, scene.motion.rate_after(t));
+            there.follow(&self.vehicle, node, &way, scene.held, &scene.motion.rate_after(t));
             let momentum = driven.momentum + at.outboard + torques.impulse(scene.elapsed + t);
             self.move_driven(&mut there, driven, self.momentum_in_uav(&at.flow), &momentum);
             there
@@ -128,7 +128,7 @@ mod tests {
         let end_in = |steps: u32| {
             let size = 0.3 / f64::from(steps);
             let (mut phase, mut node) = (Phase::new(start.flow(BaseModel::Full)), start.node);
-            node.move_at(motion.rate);
+            node.move_at(&motion.rate);
             dynamics.move_driven(&mut node, &driven, Twist::ZERO, &SVector::zeros());
             for n in 0..steps {
                 let elapsed = size * f64::from(n);
