@@ -305,12 +305,17 @@ fn peak_between(recording: &Recording, name: &str, shares: [f64; 2]) -> f64 {
     peak(recording.column(name).get(from..=to).unwrap_or_default().iter().map(|value| value.abs()))
 }
 
+/// What is smaller than this share of the largest value is rounding: its sign says nothing.
+const VISIBLE: f64 = 1e-9;
+
 /// How often numbers change their sign.
 fn swings(values: &[f64]) -> f64 {
     if values.is_empty() {
         return f64::NAN;
     }
-    values.windows(2).filter(|pair| pair[0] * pair[1] < 0.0).map(|_| 1.0).sum()
+    let largest = values.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
+    let seen: Vec<f64> = values.iter().copied().filter(|value| value.abs() > VISIBLE * largest).collect();
+    seen.windows(2).filter(|pair| pair[0] * pair[1] < 0.0).map(|_| 1.0).sum()
 }
 
 /// Mean velocity of what is at `name` along x in the last second, or not a number if the run is shorter.
