@@ -213,21 +213,29 @@ impl<const N: usize> Dynamics<N> {
         let turning = turning + TUMBLING * step.rates[0][2].abs();
         let fastest = if turning > self.control_rate { turning } else { self.control_rate };
         let longest = LONGEST.min(RESOLUTION / fastest);
-        if contact { longest.min(self.longest_on_support(step)) } else { longest }
+        if contact { self.longest_on_support(step, longest) } else { longest }
     }
 
-    /// The longest internal step that resolves how the system swings on the support.
+    /// The longest internal step, at most `longest`, that resolves how the system swings on the support.
     #[inline(never)]
-    fn longest_on_support(&self, step: &Internal<N>) -> f64 {
+    fn longest_on_support(&self, step: &Internal<N>, longest: f64) -> f64 {
         let (vehicle, Internal { nodes: [node, _], from: flow, rates: [k_1, ..], .. }) = (&self.vehicle, step);
+        let lightness = vehicle.masses(true).lightness;
         // The support feels the mass of the system and, at a lever, its inertia.
         let lever = node.posture.payload.x;
-        let mobility = 1.0 / node.matrix.mass + lever * lever / vehicle.uav_inertia;
+        let mobility = lightness + lever * lever / vehicle.uav_inertia;
         let swinging = (self.support.stiffness * mobility).sqrt();
         let gap_rate = self.gap_rate(self.arm_turn(flow), node, &k_1.fixed_rows::<3>(0).into());
-        let speed = gap_rate.abs() + k_1[4].abs() / (node.matrix.mass * swinging);
+        let speed = gap_rate.abs() + k_1[4].abs() * lightness / swinging;
+        // Mostly the step is short enough: that is seen without the roots below, which take a tenth of a step.
+        let resolved = longest * swinging;
+        let square = resolved * resolved;
+        let fine = SUPPORT_RESOLUTION * SUPPORT_RESOLUTION;
+        if resolved <= COARSEST_SUPPORT_RESOLUTION && speed * (square * square) <= fine * fine {
+            return longest;
+        }
         let resolution = (SUPPORT_RESOLUTION / speed.sqrt().sqrt()).min(COARSEST_SUPPORT_RESOLUTION);
-        resolution / swinging
+        longest.min(resolution / swinging)
     }
 }
 
