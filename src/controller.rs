@@ -1,8 +1,11 @@
 //! Inverse kinematics from one communication point to the next.
 
 mod acceleration;
+mod clock;
+mod damping;
 mod euler;
 mod exact;
+mod external;
 mod foreseen;
 mod limits;
 mod method;
@@ -30,26 +33,38 @@ use crate::planar::Vec2;
 options! {
     #[doc = " How the present rates came about."]
     pub enum Status {
-        #[doc = " All that was asked for is met."]
+        #[doc = " All that was asked for is met: the interval ends within 1e-6 m of the reference."]
         Ok = "ok",
-        #[doc = " The second task of the redundant arm is given up in part: it contradicts the path here."]
+        #[doc = " The second task of the redundant arm is given up in part, for it contradicts the path here; the interval ends \
+                 within 1e-6 m of the reference."]
         TaskDamped = "task_damped",
-        #[doc = " The path itself is given up in part: the arm is close to a singular configuration."]
+        #[doc = " The arm is close to a singular configuration, and the path may be given up in part."]
         PathDamped = "path_damped",
-        #[doc = " Rates are scaled down to the limit, and the path is given up in part."]
+        #[doc = " Rates are scaled down to the limit, and the path may be given up in part."]
         RateLimited = "rate_limited",
-        #[doc = " An error left over, or a jump of the reference, is being made good, at a bounded speed."]
+        #[doc = " An error left over, or a jump of the reference, is being made good at a bounded speed; the path may be given \
+                 up in part."]
         CatchingUp = "catching_up",
-        #[doc = " Limits bind: the path is followed, at the expense of the moment on the UAV (least_squares)."]
+        #[doc = " Limits bind, and the second task gives way; the interval ends within 1e-6 m of the reference."]
         TaskLimited = "task_limited",
-        #[doc = " Limits bind, and the path is given up in part: they allow nothing nearer to it (least_squares)."]
+        #[doc = " Limits bind, and the path may be given up in part: they allow nothing nearer to it (least_squares)."]
         PathLimited = "path_limited",
-        #[doc = " The end of the interval is off the reference: it is too long for the motion in it."]
+        #[doc = " The interval ends more than 1e-6 m off the reference: it is too long for the motion in it, or the \
+                 discretization is euler, which makes nothing good."]
         Inexact = "inexact",
     }
 }
 
-/// The wanted motion of the end effector, if the reference is external; inertial frame.
+impl Status {
+    /// Whether it says that the end effector is on the reference at the end of the interval.
+    #[must_use]
+    pub fn keeps_path(self) -> bool {
+        matches!(self, Self::Ok | Self::TaskDamped | Self::TaskLimited)
+    }
+}
+
+/// The wanted motion of the end effector, if the reference is external; inertial frame. Which instant of the communication
+/// step the values belong to is a parameter. What is 0 throughout is taken from differences of the others.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Inputs {
     /// Position \[m\].
@@ -90,6 +105,8 @@ pub struct Outputs {
     pub velocity_residual: f64,
     /// Predicted mean moment on the UAV under these rates \[N m\].
     pub moment_residual: f64,
+    /// How far the finished plan ended off where it said that it would, relative to the reference \[m\].
+    pub late_miss: f64,
 }
 
 impl Outputs {
@@ -147,6 +164,7 @@ impl Default for Outputs {
             min_singular_value: 0.0,
             velocity_residual: 0.0,
             moment_residual: 0.0,
+            late_miss: 0.0,
         }
     }
 }
@@ -169,7 +187,7 @@ pub trait Planner: Memory + Send {
     fn step(&mut self, inputs: &Inputs, t: f64, size: f64, outputs: &mut Outputs) -> Result<()>;
 
     /// How fast the outputs at time `t`, the present one counted from the start, change.
-    fn rates(&self, inputs: &Inputs, t: f64) -> Rates;
+    fn rates(&self, t: f64) -> Rates;
 
     /// Whether what was taken off a tape can be the memory of a run.
     ///

@@ -7,7 +7,7 @@ use crate::parameters::{
     Actuation, Balance, BalanceElement, BaseModel, Counterweight, Discretization, Hold, InverseKinematics, Joint, Link,
     MAX_LINKS, MomentModel, Mount, Parameters, PathAxes, Payload, Resolution, Structure, Support, Uav,
 };
-use crate::reference::{Circle, Leg, Profile, Reference, ReferenceKind};
+use crate::reference::{Circle, Leg, Profile, Reference, ReferenceInstant, ReferenceKind};
 
 /// Duration of the payload pick-up of thesis chapter 4 \[s\].
 pub const PICK_UP_DURATION: f64 = 30.0;
@@ -79,6 +79,8 @@ pub fn default_parameters(structure: Structure) -> Parameters {
             gradient_gain: -392.0,
             moment_model: MomentModel::FreeBase,
             rate_penalty: 0.0,
+            moment_damping: 3.0,
+            moment_washout: 0.4,
             discretization: Discretization::Exact,
             hold: Hold::ZeroOrder,
         },
@@ -86,6 +88,7 @@ pub fn default_parameters(structure: Structure) -> Parameters {
             kind: ReferenceKind::Path,
             legs: pick_up_path(dx, dy),
             circle: Circle { diameter: 0.06, duration: 4.0, start_angle: PI },
+            instant: ReferenceInstant::StepStart,
         },
     }
 }

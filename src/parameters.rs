@@ -357,6 +357,10 @@ pub struct InverseKinematics {
     pub moment_model: MomentModel,
     /// What a rate of a joint costs beside the squared moment on the UAV \[(N m)2 s/rad\].
     pub rate_penalty: f64,
+    /// Moment on the UAV per angular momentum in the rates of the arm \[1/s\]; 0: its free motion is not damped.
+    pub moment_damping: f64,
+    /// How long a lasting angular momentum is damped, as time constant \[s\].
+    pub moment_washout: f64,
     /// Prediction of the coming interval.
     pub discretization: Discretization,
     /// Rates in the coming interval.

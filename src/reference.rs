@@ -1,6 +1,7 @@
 //! The wanted motion of the end effector, relative to where it starts.
 
 use crate::error::{Error, Result};
+use crate::memory;
 use crate::options;
 use crate::planar::{Turn, Vec2, vec2};
 
@@ -16,6 +17,16 @@ options! {
         Circle = "circle",
         #[doc = " Position, velocity and acceleration come as inputs."]
         External = "external",
+    }
+}
+
+options! {
+    #[doc = " Which instant of a communication step the values of an external reference belong to."]
+    pub enum ReferenceInstant {
+        #[doc = " Its beginning, as FMI has it: what masters hand over that set inputs before a step."]
+        StepStart = "step_start",
+        #[doc = " Its end: what sequential masters hand over that have stepped the source of the reference before."]
+        StepEnd = "step_end",
     }
 }
 
@@ -137,7 +148,16 @@ impl Target {
     /// At the starting point.
     pub const AT_REST: Self =
         Self { displacement: vec2(0.0, 0.0), velocity: vec2(0.0, 0.0), acceleration: vec2(0.0, 0.0) };
+
+    /// The motion a time `t` \[s\] later, or earlier, at constant acceleration.
+    #[must_use]
+    pub fn at(&self, t: f64) -> Self {
+        let Self { displacement, velocity: v, acceleration: a } = *self;
+        Self { displacement: displacement + (v + a * (0.5 * t)) * t, velocity: v + a * t, acceleration: a }
+    }
 }
+
+memory!(Target { displacement, velocity, acceleration });
 
 /// The wanted motion of the end effector.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -148,6 +168,8 @@ pub struct Reference {
     pub legs: [Leg; LEGS],
     /// The circle.
     pub circle: Circle,
+    /// When the values of an external reference are valid.
+    pub instant: ReferenceInstant,
 }
 
 impl Reference {

@@ -15,6 +15,9 @@ pub use writer::Extent;
 
 pub use crate::defaults::{PICK_UP_DURATION, THESIS_STEP, default_parameters};
 
+/// Name of the scenario that the start values of the units are.
+pub const PICK_UP: &str = "pick-up";
+
 use crate::parameters::{Parameters, Structure};
 
 /// A run that everybody can start by its name.

@@ -41,6 +41,8 @@ const fn shown(mut unit: Unit, name: &'static str, factor: f64) -> Unit {
 pub static ONE: Unit = unit("1", [0, 0, 0, 0]);
 /// Mass.
 pub static KILOGRAM: Unit = unit("kg", [1, 0, 0, 0]);
+/// Frequency, and rate of decay.
+pub static PER_SECOND: Unit = unit("1/s", [0, 0, -1, 0]);
 /// Length.
 pub static METRE: Unit = shown(unit("m", [0, 1, 0, 0]), "mm", 1000.0);
 /// Time.

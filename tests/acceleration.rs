@@ -40,6 +40,7 @@ fn vehicle(random: &mut Random, axes: PathAxes, mode: AutopilotMode) -> (Structu
     p.payload.com = p.links[links - 1].length;
     p.payload.grasp_time = 0.25;
     p.autopilot.mode = mode;
+    p.ik.moment_damping = 0.0;
     (p.ik.base_model, p.ik.moment_model) = (BaseModel::Full, MomentModel::FreeBase);
     (p.ik.resolution, p.ik.hold, p.ik.path_axes) = (Resolution::AccelerationLevel, Hold::FirstOrder, axes);
     for leg in &mut p.reference.legs {
@@ -98,7 +99,8 @@ fn error(scenario: &Scenario, discretization: Discretization, step: f64, until: 
     let mut largest = 0.0_f64;
     for _ in 0..(until / step).round() as u64 {
         coupling.step(step);
-        assert_eq!(coupling.commands.status, Status::Ok);
+        // What the explicit step is off, it says.
+        assert!(matches!(coupling.commands.status, Status::Ok | Status::Inexact));
         largest = largest.max((coupling.plant.outputs.end_effector.x - coupling.commands.reference.x).abs());
     }
     largest

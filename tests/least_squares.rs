@@ -20,6 +20,7 @@ fn circle(duration: f64) -> Parameters {
     p.reference.kind = ReferenceKind::Circle;
     p.reference.circle = Circle { diameter: 0.06, duration, start_angle: std::f64::consts::PI };
     p.payload.grasp_time = 1e9;
+    p.ik.moment_damping = 0.0;
     p
 }
 

@@ -6,7 +6,7 @@ use std::slice::from_ref;
 
 use common::{REACH, assert_close, cases, derivative};
 use proptest::prelude::*;
-use uam::reference::{Circle, Leg, Profile, Reference, ReferenceKind};
+use uam::reference::{Circle, Leg, Profile, Reference, ReferenceInstant, ReferenceKind};
 
 fn leg(profile: Profile) -> Leg {
     Leg { start: 1.0, duration: 3.0, ramp: 0.5, dx: 0.3, dy: -0.4, profile }
@@ -19,6 +19,7 @@ fn path(legs: &[Leg]) -> Reference {
         kind: ReferenceKind::Path,
         legs: all,
         circle: Circle { diameter: 0.1, duration: 4.0, start_angle: 0.7 },
+        instant: ReferenceInstant::StepStart,
     }
 }
 

@@ -19,6 +19,7 @@ fn problem<const N: usize>(random: &mut Random) -> Problem<N> {
     Problem {
         path: SMatrix::from_fn(|_, _| random.about_zero(0.3)),
         velocity: random.vector(0.3),
+        interval: 1e-3,
         moment: Task { row: SVector::from_fn(|_, _| random.about_zero(0.3)), value: random.about_zero(0.1) },
     }
 }
@@ -28,7 +29,7 @@ fn svd<const N: usize>(problem: &Problem<N>) -> SVD<f64, Dyn, Dyn> {
 }
 
 /// Path and moment in one matrix.
-fn extended<const N: usize>(Problem { path, velocity, moment }: &Problem<N>) -> (DMatrix<f64>, DVector<f64>) {
+fn extended<const N: usize>(Problem { path, velocity, moment, .. }: &Problem<N>) -> (DMatrix<f64>, DVector<f64>) {
     let row = |row: usize, i: usize| if row < 2 { path[(row, i)] } else { moment.row[i] };
     (DMatrix::from_fn(3, N, row), DVector::from_vec(vec![velocity.x, velocity.y, moment.value]))
 }
@@ -96,6 +97,11 @@ fn check_bounded<const N: usize>(random: &mut Random) {
         assert!(found.rate.iter().all(|rate| rate.is_finite()), "{found:?}");
         assert!(found.min_singular_value.is_finite() && found.min_singular_value >= 0.0);
     }
+    // However near to singular the arm is, the second task moves nothing along the path.
+    let [with, without] = [true, false].map(|task| resolve(&problem, task));
+    let moved = (problem.path * (with.rate - without.rate)).norm();
+    let rounding = 1e-12 * problem.path.norm() * (with.rate.norm() + without.rate.norm());
+    assert!(moved <= rounding, "{moved:e}, {with:?}, {without:?}");
     // The worst gain of damped least squares, 1 / (2 x lambda) at full damping, somewhat more on the way there.
     let found = resolve(&problem, false);
     let bound = problem.velocity.norm() / (PATH_THRESHOLD * REACH);
@@ -130,10 +136,36 @@ proptest! {
 fn the_stretched_arm_gives_up_what_it_cannot_do() {
     let path = SMatrix::<f64, 2, 2>::from_columns(&[vec2(0.26, 0.0), vec2(0.13, 0.0)]);
     let moment = Task { row: SVector::zeros(), value: 0.0 };
-    let found = Problem { path, velocity: vec2(0.1, 0.1), moment }.resolve(PathAxes::Both, false, 0.26);
+    let found = Problem { path, velocity: vec2(0.1, 0.1), interval: 1e-3, moment }.resolve(PathAxes::Both, false, 0.26);
     let factor = 0.1 / (0.26_f64.powi(2) + 0.13_f64.powi(2));
     assert_close(found.rate.as_slice(), &[0.26 * factor, 0.13 * factor], 1e-14, "rate");
     assert!(found.path_damped && found.min_singular_value == 0.0);
+}
+
+/// A way beyond the reach of a nearly stretched arm, asked for again in each interval: with the rate of
+/// one interval the bend must not swing to the other side. The arm of two equal links, bent by the angle b, is
+/// stretched as long as 2 l cos(b/2); its weak direction is the radial one.
+#[test]
+fn a_nearly_stretched_arm_is_drawn_out_without_swinging() {
+    let l = 0.25_f64;
+    for interval in [1e-3, 1e-2, 2e-2] {
+        let mut bend = 0.05_f64;
+        for step in 0..10_000 {
+            let (sin, cos) = bend.sin_cos();
+            // Joint 1 at the origin, link 1 along y.
+            let tip = vec2(l * sin, l + l * cos);
+            let path = SMatrix::<f64, 2, 2>::from_columns(&[vec2(-tip.y, tip.x), vec2(-l * cos, l * sin)]);
+            let velocity = tip.normalize() * 0.2;
+            let moment = Task { row: SVector::zeros(), value: 0.0 };
+            let found = Problem { path, velocity, interval, moment }.resolve(PathAxes::Both, false, 2.0 * l);
+            // In these axes the second rate unbends the arm if it is positive.
+            let next = bend - found.rate[1] * interval;
+            assert!(next.abs() < bend.abs() + 1e-12, "bend {bend} to {next} in step {step} of {interval} s");
+            assert!(next >= -1e-12, "swings to {next} in step {step} of {interval} s");
+            bend = next;
+        }
+        assert!(bend < 1e-2, "{bend}");
+    }
 }
 
 /// A task that asks for what the path already fixes is damped away, and the path is followed all the same.
@@ -141,7 +173,7 @@ fn the_stretched_arm_gives_up_what_it_cannot_do() {
 fn a_task_that_contradicts_the_path_gives_way() {
     let path = SMatrix::<f64, 2, 3>::from_columns(&[vec2(0.3, 0.1), vec2(0.1, 0.2), vec2(-0.1, 0.2)]);
     let moment = Task { row: path.row(0).transpose(), value: 1.0 };
-    let found = resolve(&Problem { path, velocity: vec2(0.1, -0.1), moment }, true);
+    let found = resolve(&Problem { path, velocity: vec2(0.1, -0.1), interval: 1e-3, moment }, true);
     assert!(found.task_damped && !found.path_damped);
     assert_close((path * found.rate).as_slice(), &[0.1, -0.1], 1e-8, "velocity");
 }
@@ -151,7 +183,7 @@ fn a_task_that_contradicts_the_path_gives_way() {
 fn a_path_along_one_axis_leaves_the_other_alone() {
     let path = SMatrix::<f64, 2, 3>::from_columns(&[vec2(0.3, 0.0), vec2(0.1, 0.0), vec2(-0.1, 0.0)]);
     let moment = Task { row: SVector::from([0.1, 0.2, 0.3]), value: 1.0 };
-    let problem = Problem { path, velocity: vec2(0.1, 0.0), moment };
+    let problem = Problem { path, velocity: vec2(0.1, 0.0), interval: 1e-3, moment };
     let found = problem.resolve(PathAxes::Horizontal, true, REACH);
     let rows = SMatrix::<f64, 2, 3>::from_rows(&[path.row(0).into_owned(), moment.row.transpose()]);
     let expected = rows.pseudo_inverse(0.0).unwrap() * vec2(0.1, 1.0);

@@ -168,12 +168,12 @@ const PICK_UP: [Quantity; 8] = [
     Quantity::LostAt,
 ];
 
-/// The scenarios of thesis 4.3.
+/// The scenarios of thesis 4.3, and what the units hold.
 ///
 /// # Errors
 /// If a file of the catalogue is wrong.
 pub fn pick_up() -> Result<Vec<Scenario>, scenarios::Error> {
-    Ok(catalogue()?.into_iter().filter(|scenario| scenario.id.starts_with("4.3")).collect())
+    Ok(catalogue()?.into_iter().filter(|Scenario { id, .. }| id.starts_with("4.3") || id == scenarios::PICK_UP).collect())
 }
 
 /// What the thesis says of these scenarios beside what came out.

@@ -11,27 +11,29 @@
 //! - `euler`: the state at the end is foreseen with the present rates, and the velocity is the present one plus
 //!   the wanted acceleration times the step. As in the thesis nothing that is off is ever made good.
 
+use super::clock::Clock;
 use super::outset::Outset;
 use super::plan::Plan;
 use super::prediction::Prediction;
-use super::resolution::{Problem, Task};
+use super::resolution::{Aims, Problem, Task};
 use super::response::Response;
 use crate::dynamics::{Motion, Situation};
 use crate::kinematics::Displacement;
 use crate::planar::{Turn, Vec2};
 
 impl<const N: usize> Outset<N> {
-    /// Accelerations for the interval of length `horizon` from time `t`, with which the end effector has the
+    /// Accelerations for the interval of the `clock` from time `t`, with which the end effector has the
     /// `acceleration` now; the prediction at its `end`.
-    pub fn accelerate_euler(&self, t: f64, horizon: f64, acceleration: Vec2, end: &mut Prediction<N>) -> Plan<N> {
+    pub fn accelerate_euler(&self, t: f64, clock: &Clock, acceleration: Vec2, end: &mut Prediction<N>) -> Plan<N> {
+        let horizon = clock.horizon;
         let here = &self.now.situation;
         // After the jump of the base's velocity, if the payload has just been taken over.
         let base = self.dynamics.base_motion(&here.node, here.state.momentum_in(here.turn), here.node.arm);
         let velocity = self.end_effector_velocity(here, base) + acceleration * horizon;
         let (ahead, carried) = self.ahead(t, horizon, end);
         let response = self.response(&ahead.node, ahead.turn, &ahead.state);
-        let problem = self.at_end(&response, ahead.turn, velocity, carried);
-        let resolved = self.solve(&problem, horizon, &self.places);
+        let problem = self.at_end(&response, ahead.turn, velocity, self.moment_task(&response, carried), horizon);
+        let resolved = self.solve(&problem, clock, &self.places, Aims::All);
         let motion = self.accelerating_to(&resolved.rate, horizon);
         self.accelerated(&ahead, &response, &motion, [t, horizon], end);
         Plan {
@@ -41,11 +43,13 @@ impl<const N: usize> Outset<N> {
         }
     }
 
-    /// The prediction `end` by explicit steps after `size` \[s\] from time `t` under the accelerations sent.
-    pub fn predict_accelerated(&self, t: f64, size: f64, end: &mut Prediction<N>) {
-        let (ahead, _) = self.ahead(t, size, end);
+    /// The prediction `end` by explicit steps after `size` \[s\] from time `t` under the accelerations sent; the impulse
+    /// of the moment on the UAV \[N m s\].
+    pub fn predict_accelerated(&self, t: f64, size: f64, end: &mut Prediction<N>) -> f64 {
+        let (ahead, carried) = self.ahead(t, size, end);
         let response = self.response(&ahead.node, ahead.turn, &ahead.state);
         self.accelerated(&ahead, &response, &self.motion, [t, size], end);
+        carried - end.carried
     }
 
     /// The configuration in which a step of length `size` from time `t` at the present rates ends, with the momentum
@@ -76,9 +80,16 @@ impl<const N: usize> Outset<N> {
         self.end_explicit(ahead, response, &motion.rate_after(size), &way, [t, size], end);
     }
 
-    /// What is asked of the rates at the end of the interval, where the system answers with `response`: the
-    /// `velocity` along the followed axes (inertial frame), and the angular momentum `carried` without moment.
-    pub fn at_end(&self, response: &Response<N>, turn: Turn, velocity: Vec2, carried: f64) -> Problem<N> {
+    /// What is asked of the rates at the end of an interval of length `interval` \[s\], where the system answers with
+    /// `response`: the `velocity` along the followed axes (inertial frame), and what is asked of the `moment`.
+    pub fn at_end(
+        &self,
+        response: &Response<N>,
+        turn: Turn,
+        velocity: Vec2,
+        moment: Task<N>,
+        interval: f64,
+    ) -> Problem<N> {
         let followed = |v: Vec2| self.resolver.followed(turn.apply(v));
         let mut path = response.jacobian;
         for mut column in path.column_iter_mut() {
@@ -87,7 +98,8 @@ impl<const N: usize> Outset<N> {
         Problem {
             path,
             velocity: self.resolver.followed(velocity) - followed(response.end_effector_free),
-            moment: Task { row: response.carried, value: carried - response.carried_free },
+            interval,
+            moment,
         }
     }
 }

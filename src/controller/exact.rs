@@ -9,10 +9,11 @@
 use nalgebra::SVector;
 
 use super::Status;
+use super::clock::Clock;
 use super::outset::Outset;
-use super::plan::Plan;
+use super::plan::{ON_PATH, Plan};
 use super::prediction::Prediction;
-use super::resolution::{Problem, Task};
+use super::resolution::{Aims, Problem, Resolved, Task};
 use crate::dynamics::{Account, Loads, Motion, Situation};
 use crate::error::Result;
 use crate::parameters::Hold;
@@ -21,13 +22,10 @@ use crate::reference::Target;
 
 /// Iterations of a plan at most; one does normally, two after a kink of the path, more where a stiff autopilot answers
 /// within the interval.
-const ITERATIONS: usize = 6;
+const ITERATIONS: usize = 8;
 
 /// End effector this close to the reference at the end of the interval is on it \[m\].
 const ON_REFERENCE: f64 = 1e-12;
-
-/// Farther from the reference than this, an iteration that has come to its end has failed \[m\].
-const INEXACT: f64 = 1e-6;
 
 /// Moment impulses on the UAV below this are none \[N m s\].
 const NO_IMPULSE: f64 = 1e-12;
@@ -44,67 +42,135 @@ const SHORTENED: f64 = 1e-9;
 /// Plans of which a polynomial leaves at most this share of the change from the one before unforeseen follow a smooth path.
 const SMOOTH: f64 = 0.1;
 
+/// The wanted way of one interval.
+#[derive(Debug, Clone, Copy)]
+struct Way<'a> {
+    /// When it begins, from the start \[s\].
+    t: f64,
+    clock: &'a Clock,
+    /// Where and how fast the end effector is to be at its end.
+    target: Target,
+    aims: Aims,
+}
+
 impl<const N: usize> Outset<N> {
-    /// A plan for the interval of length `horizon` from time `t` that brings the end effector onto the `target`, or as near
-    /// to it as it may come in one interval; the wanted place is `now` now, and was foreseen to be `aim` \[m\]. Writes the
-    /// prediction at its `end`.
+    /// A plan for the interval of the `clock` from time `t` that brings the end effector onto the `target`, or as near
+    /// to it as it may come in one interval; the wanted place is `now` now, and was foreseen to be `expected` \[m\]. Writes
+    /// the prediction at its `end`.
     ///
     /// # Errors
     /// If the interval cannot be integrated.
     pub fn plan_towards(
         &self,
         t: f64,
-        horizon: f64,
-        aim: Vec2,
+        clock: &Clock,
+        expected: Vec2,
         now: Vec2,
         target: &Target,
         end: &mut Prediction<N>,
     ) -> Result<Plan<N>> {
-        let here = self.now.end_effector();
+        let (here, horizon) = (self.now.end_effector(), clock.horizon);
         let followed = |way: Vec2| self.resolver.followed(way);
-        let left_over = followed(aim - here).cap_magnitude(CATCHING_UP * horizon);
-        let unforeseen = followed(now - aim).cap_magnitude(UNFORESEEN * horizon);
+        let behind = followed(expected - here);
+        let left_over = behind.cap_magnitude(self.catching_up_speed(behind, horizon) * horizon);
+        let unforeseen = followed(now - expected).cap_magnitude(UNFORESEEN * horizon);
         let nearer = Target {
             displacement: here + left_over + unforeseen + (target.displacement - now),
             velocity: target.velocity + (left_over + unforeseen) / horizon,
             ..*target
         };
-        let mut plan = self.plan_exact(t, horizon, &nearer, end)?;
+        let mut plan = self.plan_path_first(Way { t, clock, target: nearer, aims: Aims::All }, end)?;
         let missing = followed(target.displacement - end.end_effector());
         plan.velocity_residual = missing.norm() / horizon;
         let shortened = followed(now - here) - (left_over + unforeseen);
         // Rates that do not jump bring it onto the path by and by.
-        let off = if self.resolver.accelerates() { INEXACT } else { SHORTENED };
+        let off = if self.resolver.accelerates() { ON_PATH } else { SHORTENED };
         let apart = shortened != Vec2::zeros() || self.resolver.accelerates();
-        if plan.status == Status::Ok && apart && missing.norm() > off {
+        if plan.status.keeps_path() && apart && missing.norm() > off {
             plan.status = Status::CatchingUp;
         }
         Ok(plan)
     }
 
-    /// The motion in the interval of length `horizon` from time `t` at whose end the end effector is on the `target`, as
+    /// How fast what is left over of the path, the way `behind` \[m\], is made good \[m/s\]. Where accelerations are
+    /// limited, so slowly that the joints can brake in time: with 30 % of what the slowest joint is able to, for the rest of
+    /// the motion needs acceleration, too.
+    fn catching_up_speed(&self, behind: Vec2, horizon: f64) -> f64 {
+        let way = behind.norm();
+        if !self.resolver.limits_accelerations() || way <= SHORTENED {
+            return CATCHING_UP;
+        }
+        let Situation { node, turn, state } = &self.now.situation;
+        let response = self.response(node, *turn, state);
+        let along = Problem {
+            path: response.jacobian,
+            velocity: turn.undo(behind / way),
+            interval: horizon,
+            moment: Task { row: response.carried, value: 0.0 },
+        };
+        let braking = 0.3 * self.resolver.acceleration_along(&along);
+        let change = 0.5 * braking * horizon;
+        CATCHING_UP.min((change * change + 2.0 * braking * way).sqrt() - change)
+    }
+
+    /// A plan for the `way`. Where its iteration leaves the path, that may be for the sake of the second task: it is made
+    /// once more without it. Writes the prediction at its `end`.
+    fn plan_path_first(&self, way: Way<'_>, end: &mut Prediction<N>) -> Result<Plan<N>> {
+        let plan = self.plan_exact(way, end)?;
+        let left = self.missing(&way.target, way.clock.horizon, &end.situation).norm();
+        if left <= ON_PATH || !self.resolver.has_second_task() {
+            return Ok(plan);
+        }
+        self.plan_path_alone(way, end, (plan, left))
+    }
+
+    /// The better one of the plan without second task and of another one, which leaves the end effector as far off the
+    /// path as is said with it \[m\].
+    #[cold]
+    #[inline(never)]
+    fn plan_path_alone(
+        &self,
+        way: Way<'_>,
+        end: &mut Prediction<N>,
+        (with_task, left): (Plan<N>, f64),
+    ) -> Result<Plan<N>> {
+        let mut other = *end;
+        let mut plan = self.plan_exact(Way { aims: Aims::Path, ..way }, &mut other)?;
+        let left_alone = self.missing(&way.target, way.clock.horizon, &other.situation).norm();
+        if left_alone >= 0.5 * left {
+            return Ok(with_task);
+        }
+        *end = other;
+        if plan.status == Status::Ok {
+            plan.status = Status::TaskLimited;
+        }
+        Ok(plan)
+    }
+
+    /// The motion in the interval of the `way` at whose end the end effector is on the target, as
     /// near as the iteration gets: at its place, with a hold of first order with its velocity, too, and if
     /// accelerations are chosen with its velocity alone. Writes the prediction at its `end`.
     ///
     /// # Errors
     /// If the interval cannot be integrated.
-    fn plan_exact(&self, t: f64, horizon: f64, target: &Target, end: &mut Prediction<N>) -> Result<Plan<N>> {
+    fn plan_exact(&self, Way { t, clock, target, aims }: Way<'_>, end: &mut Prediction<N>) -> Result<Plan<N>> {
+        let horizon = clock.horizon;
         let accelerates = self.resolver.accelerates();
-        let ramped = accelerates || self.hold == Hold::FirstOrder;
+        let cancels = aims == Aims::All && self.resolver.cancels_moment();
         let mut plan = Plan { places: self.places, ..Plan::moving(self.go_on(horizon)) };
-        let mut left_over = 0.0;
+        // The impulse that the rates in question should exert on the UAV, as far as all is linear.
+        let mut linear = 0.0;
         let mut nearest: Option<(f64, Plan<N>)> = None;
         for iteration in 0..=ITERATIONS {
             let impulse = self.carry_out(&mut plan, t, horizon, end)?;
-            let moment = plan.moment_residual * horizon;
-            let missing = self.missing(target, horizon, &end.situation);
+            let missing = self.missing(&target, horizon, &end.situation);
             let miss = missing.norm();
-            let moment_free = !self.resolver.cancels_moment() || (moment - left_over).abs() <= NO_IMPULSE;
+            let moment_free = !cancels || (plan.moment_residual * horizon - linear).abs() <= NO_IMPULSE;
             if iteration > 0 {
-                if (miss <= ON_REFERENCE && moment_free) || (iteration == ITERATIONS && miss <= INEXACT) {
+                if (miss <= ON_REFERENCE && moment_free) || (iteration == ITERATIONS && miss <= ON_PATH) {
                     return Ok(plan);
                 }
-                if plan.status == Status::Ok && nearest.as_ref().is_none_or(|(least, _)| miss < *least) {
+                if plan.status.keeps_path() && nearest.as_ref().is_none_or(|(least, _)| miss < *least) {
                     nearest = Some((miss, plan));
                 }
             }
@@ -115,34 +181,41 @@ impl<const N: usize> Outset<N> {
             let Situation { node, turn, state } = &end.situation;
             let response = self.response(node, *turn, state);
             let carried = self.now.carried + impulse;
+            let moment = self.moment_task(&response, carried);
             let mean = Problem {
                 path: response.jacobian,
                 velocity: response.jacobian * plan.motion.rate_after(0.5 * horizon) + turn.undo(missing / horizon),
-                moment: Task { row: response.carried, value: carried - response.carried_free },
+                interval: horizon,
+                moment,
             };
-            let asked = if ramped { self.at_end(&response, *turn, target.velocity, carried) } else { mean };
-            let resolved = self.solve(&asked, horizon, &plan.places);
-            let motion = if accelerates {
-                self.accelerating_to(&resolved.rate, horizon)
-            } else if ramped && resolved.status == Status::Ok {
-                self.ramp(&mean, &resolved.rate, horizon)
+            let at_end = || self.at_end(&response, *turn, target.velocity, moment, horizon);
+            let solve = |asked: &Problem<N>| self.solve(asked, clock, &plan.places, aims);
+            let (resolved, motion) = if accelerates {
+                let resolved = solve(&at_end());
+                (resolved, self.accelerating_to(&resolved.rate, horizon))
+            } else if self.hold == Hold::FirstOrder
+                && let resolved = solve(&at_end())
+                && let Some(ramp) = self.ramp(&mean, &resolved, horizon)
+            {
+                (resolved, ramp)
             } else {
-                Motion::constant(resolved.rate)
+                let resolved = solve(&mean);
+                (resolved, Motion::constant(resolved.rate))
             };
             let change = motion - plan.motion;
             plan = Plan::of(&resolved, motion);
+            linear = carried - response.carried_momentum(&resolved.rate);
             if extent(&change, horizon) * self.resolver.reach <= ON_REFERENCE {
                 // So little is linear. Where the path is given up in part, it also says when nothing changes any more.
                 self.dynamics.displace(&mut end.situation, &change.way(horizon), &motion.rate_after(horizon));
                 self.weigh(&mut plan, impulse, horizon, end);
                 return Ok(plan);
             }
-            left_over = resolved.moment;
         }
         if let Some((_, nearest)) = nearest
-            && plan.status == Status::Ok
+            && plan.status.keeps_path()
         {
-            plan = Plan { status: Status::Inexact, ..nearest };
+            plan = nearest;
             self.carry_out(&mut plan, t, horizon, end)?;
         }
         Ok(plan)
@@ -206,15 +279,17 @@ impl<const N: usize> Outset<N> {
         plan.moment_residual = (self.now.carried + impulse - end.carried) / horizon;
     }
 
-    /// The motion that ends at the rates `last` and follows the path of `problem` in the mean.
+    /// The motion that ends at the rates `last` and follows the path of `problem` in the mean; none where the path has to
+    /// give way, or where it would begin at rates beyond the limits.
     ///
     /// Where it has a choice it begins at the rates with which the interval before ended; in the direction of
     /// the path it cannot, for a ramp from given rates to a given place would ring for ever.
-    fn ramp(&self, problem: &Problem<N>, last: &SVector<f64, N>, horizon: f64) -> Motion<N> {
-        let smooth = (self.motion.rate + last) * 0.5;
-        let mean = self.resolver.nearest(problem, &smooth).rate;
-        let first = self.resolver.within_limits(mean * 2.0 - last);
-        Motion { rate: first, slope: (last - first) / horizon }
+    fn ramp(&self, problem: &Problem<N>, last: &Resolved<N>, horizon: f64) -> Option<Motion<N>> {
+        let smooth = (self.motion.rate + last.rate) * 0.5;
+        let mean = self.resolver.nearest(problem, &smooth);
+        let first = mean.rate * 2.0 - last.rate;
+        let possible = last.status.keeps_path() && !mean.path_damped && self.resolver.admits(&first);
+        possible.then(|| Motion { rate: first, slope: (last.rate - first) / horizon })
     }
 }
 

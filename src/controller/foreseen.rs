@@ -1,8 +1,10 @@
 //! The wanted motion at the instants of a run, each worked out once.
 
 use super::Inputs;
+use super::external::External;
+use crate::bytes::{Memory, Tape};
 use crate::planar::Vec2;
-use crate::reference::{Reference, ReferenceKind, Target};
+use crate::reference::{Reference, ReferenceInstant, ReferenceKind, Target};
 
 /// The wanted motion at one instant, mostly at the end of the planned interval, where the next one begins.
 #[derive(Debug, Clone)]
@@ -10,6 +12,7 @@ pub(super) struct Foreseen {
     reference: Reference,
     /// Where the end effector starts \[m\].
     pub origin: Vec2,
+    external: External,
     /// The instant, from the start \[s\]; not a number: none yet, or the reference is external.
     time: f64,
     target: Target,
@@ -18,41 +21,57 @@ pub(super) struct Foreseen {
 impl Foreseen {
     /// Nothing yet of the `reference` for an end effector that starts at `origin`.
     pub fn new(reference: Reference, origin: Vec2) -> Self {
-        Self { reference, origin, time: f64::NAN, target: Target::AT_REST }
+        Self { reference, origin, external: External::at_rest(origin), time: f64::NAN, target: Target::AT_REST }
     }
 
-    /// The wanted motion `ahead` \[s\] after time `t`, its displacement from the origin of the inertial frame; of an external
-    /// reference, as the `inputs` say at time `t`.
+    /// Takes over the `inputs` of the communication step of length `size` from time `t` \[s\].
+    pub fn take(&mut self, inputs: &Inputs, t: f64, size: f64) {
+        if self.reference.kind == ReferenceKind::External {
+            self.external.take(
+                inputs,
+                match self.reference.instant {
+                    ReferenceInstant::StepStart => t,
+                    ReferenceInstant::StepEnd => t + size,
+                },
+            );
+        }
+    }
+
+    /// The wanted motion at time `t` \[s\], its displacement from the origin of the inertial frame.
     #[inline]
-    pub fn at(&mut self, t: f64, ahead: f64, inputs: &Inputs) -> &Target {
-        if self.time != t + ahead {
-            self.work_out(t, ahead, inputs);
+    pub fn at(&mut self, t: f64) -> &Target {
+        if self.time != t {
+            self.work_out(t);
         }
         &self.target
     }
 
     #[inline(never)]
-    fn work_out(&mut self, t: f64, ahead: f64, inputs: &Inputs) {
-        let Self { reference, origin, time, target } = self;
+    fn work_out(&mut self, t: f64) {
+        let Self { reference, origin, external, time, target } = self;
         if reference.kind == ReferenceKind::External {
-            let (v, a) = (inputs.velocity, inputs.acceleration);
-            *target = Target {
-                displacement: inputs.position + (v + a * (0.5 * ahead)) * ahead,
-                velocity: v + a * ahead,
-                acceleration: a,
-            };
+            *target = external.at(t);
         } else {
-            *time = t + ahead;
+            *time = t;
             // In place: a copy would have to wait until what is copied has left the processor's store buffer.
             reference.write(*origin, *time, target);
         }
     }
 
     /// The wanted acceleration at time `t`, the present one \[m/s2\].
-    pub fn acceleration(&self, t: f64, inputs: &Inputs) -> Vec2 {
+    pub fn acceleration(&self, t: f64) -> Vec2 {
         match self.reference.kind {
-            ReferenceKind::External => inputs.acceleration,
+            ReferenceKind::External => self.external.acceleration(),
             ReferenceKind::Path | ReferenceKind::Circle => self.reference.at(t).acceleration,
         }
+    }
+}
+
+impl Memory for Foreseen {
+    fn pass(&mut self, tape: &mut Tape<'_>) {
+        // All but what the host gives follows from the parameters.
+        let Self { reference: _, origin: _, external, time, target: _ } = self;
+        external.pass(tape);
+        *time = f64::NAN;
     }
 }

@@ -34,35 +34,55 @@ impl From<&Counterweight> for Limits {
 }
 
 impl Limits {
-    /// Smallest and largest rate for an interval of length `size` \[s\] that starts at `position` with a jump
-    /// from the rate `before`.
+    /// Smallest and largest rate for an interval that starts at `position` with a jump from the rate `before`, which was
+    /// held for the time `past` \[s\], if rates may be held for the time `hold` \[s\], but no longer.
     ///
-    /// At any rate in between, the coordinate can stop at its stops by intervals of this length, each slower than
-    /// the one before by no more than the acceleration limit allows. Who is past a stop may stay there or
-    /// come back. Where not all limits can hold, since they have been changed, or since the start is too near to
-    /// a stop, that of the acceleration does.
+    /// At any rate in between, the coordinate can stop at its stops, by intervals of any lengths up to `hold`, each
+    /// slower than the one before by no more than the acceleration limit allows in the length of that one. Who is past a
+    /// stop must come back, as fast as the limits allow. Where not all limits can hold, since they have been changed,
+    /// or since the start is too near to a stop, that of the acceleration does.
     #[must_use]
-    pub fn window(&self, position: f64, before: f64, size: f64) -> [f64; 2] {
-        let change = self.acceleration * size;
-        let [downwards, upwards] = [position - self.lower, self.upper - position].map(|distance| {
-            // Far from the stop, the full rate: braking takes less than rate^2 / 2 a and one interval.
-            if 2.0 * self.acceleration * distance >= self.rate * (self.rate + 2.0 * change) {
-                self.rate
-            } else {
-                self.stopping_rate(distance, size).min(self.rate)
-            }
-        });
-        [-downwards, upwards].map(|rate| rate.min(before + change).max(before - change))
+    pub fn window(&self, position: f64, before: f64, [past, hold]: [f64; 2]) -> [f64; 2] {
+        let change = self.acceleration * past;
+        let [downwards, upwards] =
+            [position - self.lower, self.upper - position].map(|distance| self.fastest(distance, hold));
+        // Coming back, it must not pass the other stop.
+        [(-downwards).min(upwards.max(0.0)), upwards.max(-downwards.max(0.0))]
+            .map(|rate| rate.min(before + change).max(before - change))
     }
 
-    /// The rate for an interval of length `size` \[s\] from `position` that leads towards `target` without
-    /// overshooting: as fast as the limits allow, and at the end exponentially with the time constant `time` \[s\].
+    /// The largest rate towards a stop at this `distance`, negative for who is past it.
+    fn fastest(&self, distance: f64, hold: f64) -> f64 {
+        if distance < 0.0 {
+            (distance / hold).max(-self.rate)
+        } else if self.is_far(distance, self.rate, hold) {
+            self.rate
+        } else {
+            self.stopping_rate(distance, hold).min(self.rate)
+        }
+    }
+
+    /// Whether braking from `rate` surely takes less than `distance`: rate^2 / 2 a and one interval.
+    fn is_far(&self, distance: f64, rate: f64, hold: f64) -> bool {
+        2.0 * self.acceleration * distance >= rate * (rate + 2.0 * self.acceleration * hold)
+    }
+
+    /// Whether one who is at `position` may hold this `rate` for the time `hold` \[s\], and can stop at the stops then.
+    #[must_use]
+    pub fn can_hold(&self, position: f64, rate: f64, hold: f64) -> bool {
+        let distance = if rate < 0.0 { position - self.lower } else { self.upper - position };
+        rate == 0.0 || self.is_far(distance, rate.abs(), hold) || rate.abs() <= self.stopping_rate(distance, hold)
+    }
+
+    /// The rate from `position` that leads towards `target` without overshooting, where the rate `before` was held for
+    /// the time `past` \[s\] and the next one may be held for `hold` \[s\]: as fast as the limits allow, and at the end
+    /// exponentially with the time constant `time` \[s\].
     #[must_use]
     #[inline(never)]
-    pub fn approach(&self, target: f64, position: f64, before: f64, size: f64, time: f64) -> f64 {
+    pub fn approach(&self, target: f64, position: f64, before: f64, [past, hold]: [f64; 2], time: f64) -> f64 {
         let distance = target.min(self.upper).max(self.lower) - position;
-        let [least, most] = self.window(position, before, size);
-        let speed = self.stopping_rate(distance.abs(), size).min(distance.abs() / time.max(size));
+        let [least, most] = self.window(position, before, [past, hold]);
+        let speed = self.stopping_rate(distance.abs(), hold).min(distance.abs() / time.max(hold));
         (speed * distance.signum()).min(most).max(least)
     }
 
@@ -84,8 +104,6 @@ impl Limits {
 /// What the limits allow in one interval.
 #[derive(Debug, Clone, Copy)]
 pub struct Allowed {
-    /// Length of the interval \[s\].
-    pub size: f64,
     /// Smallest rates \[rad/s, m/s\].
     pub least: Vector,
     /// Largest rates \[rad/s, m/s\]; that of what balances the arm is the same as the smallest.
@@ -93,14 +111,14 @@ pub struct Allowed {
 }
 
 impl Allowed {
-    /// For coordinates with these `limits`, in an interval of length `size` \[s\] from `position` and after the rates
-    /// `before`; no motion of others.
+    /// For coordinates with these `limits`, from `position` and after the rates `before`; no motion of others. The `times`
+    /// are those of [`Limits::window`].
     #[must_use]
     #[inline(never)]
-    pub fn new(limits: &[Limits], position: &[f64], before: &[f64], size: f64) -> Self {
-        let mut allowed = Self { size, least: [0.0; MAX_VARIABLES], most: [0.0; MAX_VARIABLES] };
+    pub fn new(limits: &[Limits], position: &[f64], before: &[f64], times: [f64; 2]) -> Self {
+        let mut allowed = Self { least: [0.0; MAX_VARIABLES], most: [0.0; MAX_VARIABLES] };
         for (i, (limits, (position, before))) in limits.iter().zip(position.iter().zip(before)).enumerate() {
-            [allowed.least[i], allowed.most[i]] = limits.window(*position, *before, size);
+            [allowed.least[i], allowed.most[i]] = limits.window(*position, *before, times);
         }
         allowed
     }
@@ -140,22 +158,25 @@ mod tests {
 
         #[test]
         fn whoever_stays_within_the_windows_stays_within_the_stops(
-            rate in 0.1..10.0_f64, braking in 0.5..500.0_f64, size in 1e-3..0.1_f64,
-            start in 0.0..1.0_f64, choices in prop::collection::vec(0.0..1.0_f64, 200),
+            rate in 0.1..10.0_f64, braking in 0.5..500.0_f64, hold in 1e-3..0.1_f64,
+            start in 0.0..1.0_f64, choices in prop::collection::vec((0.0..1.0_f64, 0.0..1.5_f64), 200),
         ) {
             let limits = Limits { rate, acceleration: braking * rate, lower: -0.3, upper: 0.5 };
-            let (mut position, mut before) = (-0.3 + 0.8 * start, 0.0_f64);
-            for choice in choices {
-                let [least, most] = limits.window(position, before, size);
+            let (mut position, mut before, mut past) = (-0.3 + 0.8 * start, 0.0_f64, hold);
+            for (choice, share) in choices {
+                let [least, most] = limits.window(position, before, [past, hold]);
                 prop_assert!(least <= most);
                 // Often at the ends.
                 let next = least + (most - least) * (2.0 * choice - 0.5).clamp(0.0, 1.0);
                 prop_assert!(next.abs() <= rate * (1.0 + 1e-12));
-                prop_assert!((next - before).abs() <= limits.acceleration * size * (1.0 + 1e-12));
-                let rest = rest(&limits, position, next, size);
+                prop_assert!((next - before).abs() <= limits.acceleration * past * (1.0 + 1e-12));
+                let rest = rest(&limits, position, next, hold);
                 prop_assert!((-0.3 - 1e-9..=0.5 + 1e-9).contains(&rest), "{rest}");
+                prop_assert!(next.abs() < 1e-9 || limits.can_hold(position, next * (1.0 - 1e-9), hold));
+                // Often as long as may be, else of any length.
+                let size = hold * share.clamp(1e-6, 1.0);
                 position += next * size;
-                before = next;
+                (before, past) = (next, size);
                 prop_assert!((-0.3 - 1e-12..=0.5 + 1e-12).contains(&position), "{position}");
             }
         }
@@ -181,7 +202,7 @@ mod tests {
             let (mut position, mut before) = (0.0_f64, 0.0);
             let end = target.clamp(-1.0, 1.0);
             for _ in 0..20_000 {
-                before = limits.approach(target, position, before, size, time);
+                before = limits.approach(target, position, before, [size, size], time);
                 position += before * size;
                 prop_assert!(position.abs() <= end.abs() + 1e-12);
             }
@@ -190,18 +211,31 @@ mod tests {
     }
 
     #[test]
-    fn past_a_stop_one_may_stay_or_come_back() {
+    fn past_a_stop_one_must_come_back_as_fast_as_may_be() {
         let limits = Limits { rate: 1.0, acceleration: 10.0, lower: -1.0, upper: 1.0 };
-        assert_eq!(limits.window(1.5, 0.0, 0.1), [-1.0, 0.0]);
-        assert_eq!(limits.window(-1.5, 0.0, 0.01), [0.0, 0.1]);
+        assert_eq!(limits.window(1.5, 0.0, [0.1, 0.1]), [-1.0, -1.0]);
+        assert_eq!(limits.window(-1.5, 0.0, [0.01, 0.01]), [0.1, 0.1]);
         // Moving outwards still, it slows down as fast as it may.
-        assert_eq!(limits.window(1.5, 0.5, 0.01), [0.4, 0.4]);
+        assert_eq!(limits.window(1.5, 0.5, [0.01, 0.01]), [0.4, 0.4]);
+        // Nearer than an interval at full rate, it comes back to the stop, or goes on inwards.
+        assert_eq!(limits.window(1.0 + 0.0625, 0.0, [1.0, 0.125]), [-1.0, -0.5]);
+        // So does who is past a stop by rounding.
+        let [least, most] = limits.window(1.0 + f64::EPSILON, 0.0, [0.1, 0.1]);
+        assert!(least == -1.0 && -1e-14 < most && most < 0.0);
+    }
+
+    /// With stops close together, who comes back from past one does not pass the other.
+    #[test]
+    fn coming_back_ends_before_the_other_stop() {
+        let limits = Limits { rate: 10.0, acceleration: 1e3, lower: 0.0, upper: 0.0 };
+        let [least, most] = limits.window(0.25, 0.0, [0.1, 0.125]);
+        assert!(least <= most && (0.25 + least * 0.125).abs() < 1e-15, "{least} {most}");
     }
 
     #[test]
     fn no_number_is_too_large() {
         let limits = Limits { rate: 1e300, acceleration: 1e-300, lower: -1e300, upper: 1e300 };
-        let [least, most] = limits.window(0.0, 0.0, 1e-9);
+        let [least, most] = limits.window(0.0, 0.0, [1e-9, 1e-9]);
         assert!(least <= 0.0 && most >= 0.0 && most.is_finite());
     }
 }

@@ -2,8 +2,10 @@
 
 use nalgebra::SVector;
 
+use super::clock::Clock;
+use super::damping::MomentDamping;
 use super::prediction::Prediction;
-use super::resolution::{Interval, Problem, Resolved, Resolver};
+use super::resolution::{Aims, Interval, Problem, Resolved, Resolver, Task};
 use super::response::Response;
 use crate::bytes::{Memory, Tape};
 use crate::dynamics::{Dynamics, Motion, Node, Situation, State};
@@ -26,6 +28,11 @@ pub(super) struct Outset<const N: usize> {
     pub before: [Motion<N>; 5],
     /// Which rates are at their limits.
     pub places: Places,
+    /// Damping of the free motion.
+    pub damping: MomentDamping,
+    /// The impulse that the UAV has got beyond what was wanted: plans held for other times than they were made for
+    /// leave one, and the next plan gives it back \[N m s\].
+    pub owed: f64,
 }
 
 impl<const N: usize> Outset<N> {
@@ -36,11 +43,31 @@ impl<const N: usize> Outset<N> {
         Response::new(&self.dynamics, node, turn, state.momentum_in(turn), self.resolver.holds_balancer)
     }
 
-    /// The rates that the method chooses for an interval of length `horizon` that begins now; `guess`: which of them
-    /// will probably be at their limits.
-    pub fn solve(&self, problem: &Problem<N>, horizon: f64, guess: &Places) -> Resolved<N> {
-        let interval = Interval { beginning: &self.now.situation, before: &self.motion.rate, size: horizon, guess };
+    /// What is asked of the moment where the system answers with `response`, so that at the end of the interval what the
+    /// UAV carries has the angular momentum `carried` if no moment is exerted on the UAV \[N m s\].
+    pub fn moment_task(&self, response: &Response<N>, carried: f64) -> Task<N> {
+        let undamped = carried + self.owed - response.carried_free;
+        Task { row: response.carried, value: self.damping.damped(undamped) }
+    }
+
+    /// The rates that the method chooses for the interval of the `clock`, which begins now. `guess`: which of them will
+    /// probably be at their limits; `aims`: whether more counts than the path.
+    pub fn solve(&self, problem: &Problem<N>, clock: &Clock, guess: &Places, aims: Aims) -> Resolved<N> {
+        let interval = Interval {
+            beginning: &self.now.situation,
+            before: &self.motion.rate,
+            past: clock.past,
+            hold: clock.longest_hold(),
+            guess,
+            aims,
+        };
         self.resolver.solve(&self.dynamics.vehicle, &interval, problem)
+    }
+
+    /// Whether a coordinate could pass its stop if the present rates were held as long as the `clock` makes possible.
+    pub fn must_brake(&self, clock: &Clock) -> bool {
+        let position = &self.now.situation.state.position;
+        self.resolver.must_brake(position.as_slice(), self.motion.rate.as_slice(), clock.longest_hold())
     }
 
     /// From the present rates to the rates `last`, linearly.
@@ -74,11 +101,13 @@ impl<const N: usize> Outset<N> {
 impl<const N: usize> Memory for Outset<N> {
     fn pass(&mut self, tape: &mut Tape<'_>) {
         // Without "..": whoever adds a field decides here whether it follows from the parameters.
-        let Self { dynamics, resolver: _, hold: _, now, motion, before, places } = self;
+        let Self { dynamics, resolver: _, hold: _, now, motion, before, places, damping, owed } = self;
         dynamics.pass_gains(tape);
         now.pass(tape);
         motion.pass(tape);
         before.pass(tape);
         places.iter_mut().for_each(|place| tape.one_of(place, &Place::ALL));
+        damping.pass(tape);
+        owed.pass(tape);
     }
 }

@@ -6,6 +6,9 @@ use crate::dynamics::{Motion, check_finite};
 use crate::error::Result;
 use crate::qp::{self, Places};
 
+/// End effector this close to the reference at the end of an interval follows the path \[m\].
+pub(super) const ON_PATH: f64 = 1e-6;
+
 /// Rates for one interval.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Plan<const N: usize> {
@@ -19,8 +22,10 @@ pub(super) struct Plan<const N: usize> {
     pub min_singular_value: f64,
     /// By how much the velocity of the end effector misses the wanted one \[m/s\].
     pub velocity_residual: f64,
-    /// Mean moment on the UAV that is left \[N m\].
+    /// Mean moment on the UAV \[N m\].
     pub moment_residual: f64,
+    /// Angular momentum that the rates at the end give to what the UAV carries \[N m s\].
+    pub momentum: f64,
 }
 
 impl<const N: usize> Plan<N> {
@@ -33,13 +38,27 @@ impl<const N: usize> Plan<N> {
             min_singular_value: 0.0,
             velocity_residual: 0.0,
             moment_residual: 0.0,
+            momentum: 0.0,
         }
     }
 
     /// The `resolved` rates, reached by this motion.
     pub fn of(resolved: &Resolved<N>, motion: Motion<N>) -> Self {
-        let &Resolved { status, places, min_singular_value, .. } = resolved;
-        Self { status, places, min_singular_value, ..Self::moving(motion) }
+        let &Resolved { status, places, min_singular_value, momentum, .. } = resolved;
+        Self { status, places, min_singular_value, momentum, ..Self::moving(motion) }
+    }
+
+    /// Says that the path is given up if the end of the interval is off the reference by this `miss` \[m\], whatever
+    /// else has been said.
+    pub fn admit_miss(&mut self, miss: f64) {
+        if miss > ON_PATH && self.status.keeps_path() {
+            self.status = Status::Inexact;
+        }
+    }
+
+    /// Whether the moment on the UAV is what was wanted, as far as is known.
+    pub fn moment_is_met(&self) -> bool {
+        matches!(self.status, Status::Ok | Status::CatchingUp)
     }
 
     /// Whether all that the host will see of it is finite; residuals are not if rates are not.

@@ -5,6 +5,8 @@
 
 use nalgebra::SVector;
 
+use super::clock::Clock;
+use super::damping::MomentDamping;
 use super::foreseen::Foreseen;
 use super::outset::Outset;
 use super::plan::Plan;
@@ -14,14 +16,11 @@ use super::{Inputs, Outputs, Planner, Rates};
 use crate::autopilot::AutopilotMode;
 use crate::bytes::{Memory, Tape};
 use crate::dynamics::{Dynamics, Load, Motion};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::parameters::{Discretization, Hold, Parameters, Structure};
 use crate::planar::Vec2;
 use crate::qp;
 use crate::reference::Target;
-
-/// Sample instants this share of a sample time ahead are reached.
-const SAME_INSTANT: f64 = 1e-6;
 
 /// Times this close are the same \[s\]: hosts add up their steps.
 const SAME_TIME: f64 = 1e-9;
@@ -33,14 +32,16 @@ pub struct Controller<const N: usize> {
     /// Accelerations sent at the communication point before.
     slope_before: SVector<f64, N>,
     discretization: Discretization,
-    sample_time: f64,
+    clock: Clock,
     grasp_time: f64,
     foreseen: Foreseen,
     /// Where the reference was expected at the end of the planned interval.
-    aim: Vec2,
-    /// When the last plan was made, from the start, and for how long.
-    planned_at: f64,
-    horizon: f64,
+    aim: Target,
+    /// How far the end of the planned interval was off the reference \[m\].
+    planned_miss: Vec2,
+    /// The mean moment of the present plan on the UAV, without what it gives back \[N m\]; none if it had to give up what
+    /// was wanted of the moment.
+    lasting_moment: Option<f64>,
     /// The prediction at the end of the planned interval, as long as that is untouched: nothing of it has passed,
     /// and the laws are those of the plan.
     planned_end: Box<Prediction<N>>,
@@ -70,17 +71,19 @@ impl<const N: usize> Controller<N> {
                 places: qp::FREE,
                 dynamics,
                 now,
+                damping: MomentDamping::new(ik),
+                owed: 0.0,
             },
             discretization: ik.discretization,
-            sample_time: ik.sample_time,
+            clock: Clock::new(ik.sample_time),
             grasp_time: parameters.payload.grasp_time,
             foreseen: Foreseen::new(parameters.reference, origin),
             slope_before: SVector::zeros(),
-            planned_at: 0.0,
-            horizon: ik.sample_time,
             planned_end,
             untouched: false,
-            aim: origin,
+            aim: Target { displacement: origin, ..Target::AT_REST },
+            planned_miss: Vec2::zeros(),
+            lasting_moment: None,
         })
     }
 
@@ -92,27 +95,37 @@ impl<const N: usize> Controller<N> {
         }
     }
 
-    /// Plans the interval from time `t` on, where the reference is at `wanted`.
-    fn plan(&mut self, t: f64, wanted: &Target, inputs: &Inputs, outputs: &mut Outputs) -> Result<()> {
-        let Self { outset, planned_end: end, aim, horizon, .. } = self;
-        let target = self.foreseen.at(t, *horizon, inputs);
-        let plan = match self.discretization {
-            Discretization::Exact => outset.plan_towards(t, *horizon, *aim, wanted.displacement, target, end)?,
+    /// Plans the interval from time `t` on, where the reference is at `wanted` and was foreseen at `expected` \[m\].
+    fn plan(&mut self, t: f64, wanted: &Target, expected: Vec2, outputs: &mut Outputs) -> Result<()> {
+        let Self { outset, planned_end: end, clock, .. } = self;
+        let horizon = clock.horizon;
+        let target = self.foreseen.at(t + horizon);
+        outset.damping.prepare(horizon);
+        let mut plan = match self.discretization {
+            Discretization::Exact => outset.plan_towards(t, clock, expected, wanted.displacement, target, end)?,
             Discretization::Euler if outset.resolver.accelerates() => {
-                outset.accelerate_euler(t, *horizon, wanted.acceleration, end)
+                outset.accelerate_euler(t, clock, wanted.acceleration, end)
             }
-            Discretization::Euler => outset.plan_euler(t, *horizon, target.velocity, end),
+            Discretization::Euler => outset.plan_euler(t, clock, target.velocity, end),
         };
         plan.check(t)?;
         end.situation.state.check(t)?;
-        *aim = target.displacement;
+        self.planned_miss = outset.resolver.followed(target.displacement - end.end_effector());
+        self.aim = *target;
+        outset.damping.momentum = plan.momentum;
+        if plan.moment_is_met() {
+            self.lasting_moment = Some(plan.moment_residual + outset.owed / horizon);
+        } else {
+            (self.lasting_moment, outset.owed) = (None, 0.0);
+        }
+        plan.admit_miss(self.planned_miss.norm());
         if self.discretization == Discretization::Exact {
             outset.before.rotate_right(1);
             outset.before[0] = plan.motion;
         }
         outset.motion = plan.motion;
         outset.places = plan.places;
-        (self.planned_at, self.untouched) = (t, true);
+        self.untouched = true;
         outputs.status = plan.status;
         outputs.min_singular_value = plan.min_singular_value;
         outputs.velocity_residual = plan.velocity_residual;
@@ -124,15 +137,23 @@ impl<const N: usize> Controller<N> {
     fn predict(&mut self, t: f64, size: f64) -> Result<()> {
         let Self { outset, planned_end: end, .. } = self;
         // The plan has already been there, if the host makes the step that it was made for.
-        if !self.untouched || size != self.horizon {
+        if !self.untouched || size != self.clock.horizon {
+            let mut step = Plan::moving(outset.motion);
             if self.discretization == Discretization::Euler {
-                outset.predict_euler(t, size, end);
+                step.moment_residual = outset.predict_euler(t, size, end) / size;
             } else {
-                outset.carry_out(&mut Plan::moving(outset.motion), t, size, end)?;
+                outset.carry_out(&mut step, t, size, end)?;
             }
             end.situation.state.check(t + size)?;
+            if let Some(lasting) = self.lasting_moment {
+                outset.owed += (step.moment_residual - lasting) * size;
+            }
+        } else if self.lasting_moment.is_some() {
+            outset.owed = 0.0;
         }
         std::mem::swap(&mut outset.now, end);
+        outset.damping.advance(size, self.lasting_moment.is_some());
+        self.clock.advance(size);
         self.untouched = false;
         self.slope_before = outset.motion.slope;
         outset.motion = outset.motion.after(size);
@@ -161,19 +182,22 @@ impl<const N: usize> Memory for Controller<N> {
             outset,
             slope_before,
             discretization: _,
-            sample_time: _,
+            clock,
             grasp_time: _,
-            foreseen: _,
+            foreseen,
             aim,
-            planned_at,
-            horizon,
+            planned_miss,
+            lasting_moment,
             planned_end,
             untouched,
         } = self;
         outset.pass(tape);
         slope_before.pass(tape);
+        clock.pass(tape);
+        foreseen.pass(tape);
         aim.pass(tape);
-        [planned_at, horizon].into_iter().for_each(|time| time.pass(tape));
+        planned_miss.pass(tape);
+        lasting_moment.pass(tape);
         planned_end.pass(tape);
         untouched.pass(tape);
     }
@@ -181,14 +205,12 @@ impl<const N: usize> Memory for Controller<N> {
 
 impl<const N: usize> Planner for Controller<N> {
     fn begin(&mut self, outputs: &mut Outputs) -> Result<()> {
-        // Measurements and external references act from the first step on.
-        let here = Inputs { position: self.foreseen.origin, ..Inputs::default() };
         *outputs = Outputs::default();
         self.grasp_in_time(0.0);
         // How long the host's steps are is not known yet: a ramp might be held far beyond its end.
         let hold = std::mem::replace(&mut self.outset.hold, Hold::ZeroOrder);
-        let wanted = *self.foreseen.at(0.0, 0.0, &here);
-        self.plan(0.0, &wanted, &here, outputs)?;
+        let wanted = *self.foreseen.at(0.0);
+        self.plan(0.0, &wanted, wanted.displacement, outputs)?;
         self.outset.hold = hold;
         self.write_prediction(&wanted, outputs);
         Ok(())
@@ -197,6 +219,7 @@ impl<const N: usize> Planner for Controller<N> {
     fn tune(&mut self, parameters: &Parameters) {
         let others = self.outset.dynamics.tune(&parameters.autopilot);
         self.outset.resolver.tune(parameters);
+        self.outset.damping.tune(&parameters.ik);
         // What was planned with was predicted by other laws.
         self.untouched &= !others;
     }
@@ -205,21 +228,24 @@ impl<const N: usize> Planner for Controller<N> {
         self.predict(t, size)?;
         let now = t + size;
         self.grasp_in_time(now);
-        let wanted = *self.foreseen.at(now, 0.0, inputs);
-        if now - self.planned_at >= self.horizon - SAME_INSTANT * self.sample_time {
-            let steps = self.sample_time / size - SAME_INSTANT;
-            self.horizon = if steps > 1.0 { size * steps.ceil() } else { size };
-            self.plan(now, &wanted, inputs, outputs)?;
+        self.foreseen.take(inputs, t, size);
+        let wanted = *self.foreseen.at(now);
+        if self.clock.is_due() || self.outset.must_brake(&self.clock) {
+            let expected = self.aim.at(self.clock.since_plan - self.clock.horizon).displacement;
+            let miss = self.outset.resolver.followed(wanted.displacement - self.outset.now.end_effector());
+            outputs.late_miss = (miss - self.planned_miss).norm();
+            self.clock.plan(size);
+            self.plan(now, &wanted, expected, outputs)?;
         }
         self.write_prediction(&wanted, outputs);
         Ok(())
     }
 
-    fn rates(&self, inputs: &Inputs, t: f64) -> Rates {
+    fn rates(&self, t: f64) -> Rates {
         let Outset { dynamics, now, .. } = &self.outset;
         let now = &now.situation;
         let mut rates = Rates {
-            reference_velocity: self.foreseen.acceleration(t, inputs),
+            reference_velocity: self.foreseen.acceleration(t),
             predicted_end_effector: self.outset.end_effector_velocity(now, now.base()),
             predicted_velocity: dynamics.at_end(now, &self.slope_before, &Load::NONE).acceleration,
             ..Rates::default()
@@ -232,11 +258,8 @@ impl<const N: usize> Planner for Controller<N> {
         self.outset.dynamics.check_gains()?;
         self.outset.now.check_memory()?;
         self.planned_end.check_memory()?;
-        let times = [("time of the last plan", self.planned_at), ("length of the planned interval", self.horizon)];
-        match times.into_iter().find(|(_, value)| !value.is_finite()) {
-            Some((quantity, value)) => Err(Error::Impossible { quantity, value }),
-            None => Ok(()),
-        }
+        self.outset.damping.check_memory()?;
+        self.clock.check_memory()
     }
 
     fn clone_box(&self) -> Box<dyn Planner> {

@@ -7,6 +7,7 @@ mod counterweight;
 mod gradient;
 mod least_squares;
 mod pseudo_inverse;
+mod singular_start;
 mod weights;
 
 use nalgebra::SVector;
@@ -20,7 +21,7 @@ use super::limits::{Allowed, Limits};
 use crate::dynamics::Situation;
 use crate::parameters::{MAX_COORDINATES, Parameters, PathAxes, Resolution, Structure};
 use crate::planar::{Vec2, vec2};
-use crate::qp::{self, Places};
+use crate::qp::{self, Outcome, Places};
 use crate::vehicle::Vehicle;
 
 /// The interval whose rates are chosen.
@@ -30,10 +31,23 @@ pub(super) struct Interval<'a, const N: usize> {
     pub beginning: &'a Situation<N>,
     /// The rates before \[rad/s, m/s\].
     pub before: &'a SVector<f64, N>,
-    /// Length \[s\].
-    pub size: f64,
+    /// How long those were held \[s\]: what the limits of acceleration allow grows with it.
+    pub past: f64,
+    /// How long the rates may be held \[s\]: that they must not lead past a stop in this time.
+    pub hold: f64,
     /// Which rates will probably be at their limits.
     pub guess: &'a Places,
+    /// What counts.
+    pub aims: Aims,
+}
+
+/// What counts for the rates of an interval.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Aims {
+    /// The path, and the second task of the method.
+    All,
+    /// The path alone.
+    Path,
 }
 
 /// Rates with how they came about.
@@ -45,8 +59,8 @@ pub(super) struct Resolved<const N: usize> {
     pub status: Status,
     /// Smallest singular value of the path's matrix \[m\].
     pub min_singular_value: f64,
-    /// The impulse that they exert on the UAV all the same, as far as the problem is linear \[N m s\].
-    pub moment: f64,
+    /// The angular momentum that they give to what the UAV carries \[N m s\].
+    pub momentum: f64,
     /// Which of them are at their limits: a guess for the next problem.
     pub places: Places,
 }
@@ -114,6 +128,16 @@ impl Resolver {
         matches!(self.kind, Resolution::ExtendedJacobian | Resolution::LeastSquares | Resolution::AccelerationLevel)
     }
 
+    /// Whether something beside the path decides about the rates of a redundant arm.
+    pub fn has_second_task(&self) -> bool {
+        self.kind != Resolution::MinimumNorm
+    }
+
+    /// Whether the method knows limits of accelerations and positions.
+    pub fn limits_accelerations(&self) -> bool {
+        self.kind == Resolution::LeastSquares
+    }
+
     /// Whether rates do not jump: accelerations are chosen.
     pub fn accelerates(&self) -> bool {
         self.kind == Resolution::AccelerationLevel
@@ -136,16 +160,15 @@ impl Resolver {
     ) -> Resolved<N> {
         let found = match self.kind {
             Resolution::LeastSquares => return self.least_squares(vehicle, interval, problem),
-            Resolution::Gradient => {
+            Resolution::Gradient if interval.aims == Aims::All => {
                 self.nearest(problem, &gradient::preferred(vehicle, interval.beginning, self.gradient_gain))
             }
             // The smallest rates: right pseudo-inverse of the generalized Jacobian (thesis 1.8), or one more row below it
             // (thesis 3.2, 3.3 and 3.6).
-            Resolution::MinimumNorm | Resolution::ExtendedJacobian | Resolution::AccelerationLevel => {
-                self.along_path(problem, self.cancels_moment())
-            }
+            _ => self.along_path(problem, interval.aims == Aims::All && self.cancels_moment()),
         };
-        self.scaled(problem, &found)
+        let found = self.set_going(vehicle, interval.beginning, problem, found);
+        self.limited(problem, &found)
     }
 
     /// The smallest rates that follow the path and, if that is asked for, exert no moment beside it.
@@ -163,14 +186,35 @@ impl Resolver {
 
     /// What the limits allow. What balances the arm goes by a law of its own; its rate is fixed.
     fn allowed<const N: usize>(&self, vehicle: &Vehicle<N>, interval: &Interval<'_, N>) -> Allowed {
-        let &Interval { beginning, before, size, .. } = interval;
+        let &Interval { beginning, before, past, hold, .. } = interval;
         let (position, before) = (beginning.state.position.as_slice(), before.as_slice());
-        let mut allowed = Allowed::new(&self.limits[..self.links], position, before, size);
+        let mut allowed = Allowed::new(&self.limits[..self.links], position, before, [past, hold]);
         if let Some(target) = counterweight::balance(vehicle, beginning) {
             let i = N - 1;
-            allowed.fix(i, self.limits[i].approach(target, position[i], before[i], size, self.balancing_time));
+            allowed.fix(i, self.limits[i].approach(target, position[i], before[i], [past, hold], self.balancing_time));
         }
         allowed
+    }
+
+    /// Whether a coordinate at `position` that moves at `rate` could pass its stop if that were held for `hold` \[s\] and
+    /// braking began then.
+    pub fn must_brake(&self, position: &[f64], rate: &[f64], hold: f64) -> bool {
+        let coordinates = || self.limits.iter().zip(position.iter().zip(rate));
+        self.limits_accelerations()
+            && coordinates().any(|(limits, (position, rate))| !limits.can_hold(*position, *rate, hold))
+    }
+
+    /// Acceleration of the end effector per velocity that the `problem` asks for: what the joint with the smallest
+    /// share of its limit can do \[m/s2\].
+    pub fn acceleration_along<const N: usize>(&self, problem: &Problem<N>) -> f64 {
+        let rate = self.along_path(problem, true).rate;
+        let able = rate.iter().zip(&self.limits[..self.links]).map(|(rate, limits)| limits.acceleration / rate.abs());
+        able.fold(f64::MAX, f64::min)
+    }
+
+    /// Whether none of the rates exceeds its limit.
+    pub fn admits<const N: usize>(&self, rate: &SVector<f64, N>) -> bool {
+        self.excess(rate) <= 1.0
     }
 
     /// Rates scaled down so that none exceeds its limit.
@@ -188,17 +232,47 @@ impl Resolver {
         limited().map(|(rate, limits)| rate.abs() / limits.rate).fold(1.0, f64::max)
     }
 
-    /// Scales rates down so that none exceeds its limit, and sums up how they came about.
-    fn scaled<const N: usize>(&self, problem: &Problem<N>, found: &PseudoInverse<N>) -> Resolved<N> {
-        let excess = self.excess(&found.rate);
-        let limited = excess > 1.0;
-        let rate = if limited { found.rate / excess } else { found.rate };
+    /// Rates none of which exceeds its limit, with how they came about.
+    fn limited<const N: usize>(&self, problem: &Problem<N>, found: &PseudoInverse<N>) -> Resolved<N> {
+        let (rate, status) =
+            if self.admits(&found.rate) { (found.rate, found.status()) } else { self.path_within_limits(problem, found) };
         Resolved {
             rate,
-            status: if limited { Status::RateLimited } else { found.status() },
+            status,
             min_singular_value: found.min_singular_value,
-            moment: problem.moment.value - problem.moment.row.dot(&rate),
+            momentum: problem.moment.row.dot(&rate),
             places: qp::FREE,
         }
+    }
+
+    /// Rates within the limits where the `found` ones are not: of those that move the end effector alike the nearest ones,
+    /// and if there are none, those that move it most nearly alike.
+    #[cold]
+    #[inline(never)]
+    fn path_within_limits<const N: usize>(
+        &self,
+        problem: &Problem<N>,
+        found: &PseudoInverse<N>,
+    ) -> (SVector<f64, N>, Status) {
+        // The unknowns are the differences from the rates found.
+        let mut program = qp::Problem::new(self.links, 1.0);
+        for axis in problem.path.row_iter() {
+            let row: SVector<f64, N> = axis.transpose();
+            program.equalities.push(&row.as_slice()[..self.links], 0.0);
+        }
+        for (i, limits) in self.limits[..self.links].iter().enumerate() {
+            (program.lower[i], program.upper[i]) = (-limits.rate - found.rate[i], limits.rate - found.rate[i]);
+        }
+        let nearest = qp::solve(&program, &qp::FREE);
+        let mut rate = found.rate;
+        for (i, limits) in self.limits[..self.links].iter().enumerate() {
+            rate[i] = (rate[i] + nearest.x[i]).clamp(-limits.rate, limits.rate);
+        }
+        let status = match (nearest.outcome, found.path_damped) {
+            (Outcome::Solved, true) => Status::PathDamped,
+            (Outcome::Solved, false) => Status::TaskLimited,
+            _ => Status::RateLimited,
+        };
+        (rate, status)
     }
 }

@@ -103,7 +103,7 @@ impl Model for ControllerUnit {
     }
 
     fn differentiate(&self, data: &mut Data, elapsed: f64) {
-        data.rates = self.0.rates(&data.inputs, elapsed);
+        data.rates = self.0.rates(elapsed);
     }
 
     fn restore(structure: Structure, data: &Data, tape: &mut Tape<'_>) -> Result<Self, Error> {
@@ -332,6 +332,14 @@ fn declare_outputs(table: &mut Table<Data>, structure: Structure) {
             "Predicted mean moment of all that the UAV carries on the UAV under the present rates",
             |d, _| &mut d.outputs.moment_residual,
         );
+    table.output().real(
+        "ik.late_miss",
+        &unit::METRE,
+        Bounds::ANY,
+        "How far the finished plan has ended from where it said it would, relative to the reference, because the host's \
+         steps, or an external reference, were not those that it was made for",
+        |d, _| &mut d.outputs.late_miss,
+    );
 }
 
 #[cfg(test)]

@@ -251,7 +251,7 @@ pub fn declare_controller<D: AsMut<Parameters>>(table: &mut Table<D>, structure:
             "sample_time",
             &unit::SECOND,
             Bounds::POSITIVE,
-            "Interval between two plans; rounded up to whole communication steps",
+            "Interval between two plans, in whole communication steps: rounded down, but one step at least",
             |d, _| &mut d.as_mut().ik.sample_time,
         )
         .choice(
@@ -299,6 +299,21 @@ pub fn declare_controller<D: AsMut<Parameters>>(table: &mut Table<D>, structure:
         Bounds::NON_NEGATIVE,
         "What each absolute joint rate costs beside the squared mean moment on the UAV; for least_squares",
         |d, _| &mut d.as_mut().ik.rate_penalty,
+    )
+    .real(
+        "ik.moment_damping",
+        &unit::PER_SECOND,
+        Bounds::NON_NEGATIVE,
+        "Moment on the UAV per angular momentum that the rates give to what it carries: damps the free motion of the arm; 0: \
+         none, as in the thesis; for extended_jacobian, least_squares and acceleration_level",
+        |d, _| &mut d.as_mut().ik.moment_damping,
+    )
+    .real(
+        "ik.moment_washout",
+        &unit::SECOND,
+        Bounds::POSITIVE,
+        "Time constant after which a lasting motion of the arm is damped no more: else it would push the UAV away",
+        |d, _| &mut d.as_mut().ik.moment_washout,
     );
     for i in 0..structure.links {
         let n = i + 1;
@@ -307,8 +322,8 @@ pub fn declare_controller<D: AsMut<Parameters>>(table: &mut Table<D>, structure:
             &unit::RADIAN_PER_SECOND,
             Bounds::POSITIVE,
             format!(
-                "Largest rate commanded to joint {n}; where it binds, all rates are scaled down together, except with \
-                 least_squares, which finds other ones"
+                "Largest rate commanded to joint {n}; where it binds, the second task of the resolution gives way first, \
+                 then the path"
             ),
             |d, i| &mut d.as_mut().joints[i].rate_limit,
         )
@@ -335,14 +350,20 @@ pub fn declare_controller<D: AsMut<Parameters>>(table: &mut Table<D>, structure:
                 format!("joint[{n}].lower"),
                 &unit::RADIAN,
                 Bounds::ANY,
-                format!("Smallest angle of joint {n}, before which it brakes in time; for least_squares"),
+                format!(
+                    "Smallest angle of joint {n}, before which it brakes in time, and to which it comes back from beyond; \
+                     for least_squares, the other resolutions know no stops"
+                ),
                 |d, i| &mut d.as_mut().joints[i].lower,
             )
             .real(
                 format!("joint[{n}].upper"),
                 &unit::RADIAN,
                 Bounds::ANY,
-                format!("Largest angle of joint {n}, before which it brakes in time; for least_squares"),
+                format!(
+                    "Largest angle of joint {n}, before which it brakes in time, and to which it comes back from beyond; \
+                     for least_squares, the other resolutions know no stops"
+                ),
                 |d, i| &mut d.as_mut().joints[i].upper,
             );
     }
@@ -379,7 +400,14 @@ pub fn declare_controller<D: AsMut<Parameters>>(table: &mut Table<D>, structure:
             |d, _| &mut d.as_mut().counterweight.stroke,
         );
     }
-    table.fixed().choice("reference.kind", "What the end effector follows", |d, _| &mut d.as_mut().reference.kind);
+    table
+        .fixed()
+        .choice("reference.kind", "What the end effector follows", |d, _| &mut d.as_mut().reference.kind)
+        .choice(
+            "external_reference.instant",
+            "Which instant of a communication step the values of external_reference belong to",
+            |d, _| &mut d.as_mut().reference.instant,
+        );
     for j in 0..LEGS {
         let n = j + 1;
         table

@@ -1,4 +1,4 @@
-//! The runs of the thesis, in its order.
+//! The runs of the thesis, in its order, and what the units hold.
 
 use std::sync::LazyLock;
 
@@ -7,7 +7,12 @@ use super::{Error, Scenario, reader};
 
 /// Name and text of the files; a file may be based on those before it.
 macro_rules! files {
-    ($($id:literal)+) => { &[$(($id, include_str!(concat!("thesis/", $id, ".toml")))),+] };
+    ($($thesis:literal)+; $($own:literal)+) => {
+        &[
+            $(($thesis, include_str!(concat!("thesis/", $thesis, ".toml"))),)+
+            $(($own, include_str!(concat!($own, ".toml"))),)+
+        ]
+    };
 }
 
 const FILES: &[(&str, &str)] = files!(
@@ -18,10 +23,11 @@ const FILES: &[(&str, &str)] = files!(
     "3.6a" "3.6a-segment" "3.6b" "3.6b-segment" "3.6c" "3.6c-segment"
     "3.7-extended-jacobian" "3.7" "3.8a" "3.8b"
     "4.2a" "4.2b" "4.3a" "4.3b" "4.3c-minimum-norm" "4.3c-extended-jacobian"
-    "4.4a" "4.4b"
+    "4.4a" "4.4b";
+    "pick-up"
 );
 
-/// All named scenarios, in the order of the thesis.
+/// All named scenarios, in the order of the thesis, and then our own.
 ///
 /// # Errors
 /// If a file of the catalogue is wrong.

@@ -9,7 +9,6 @@ use fmu_build::report;
 use fmu_build::run::Run;
 use fmu_build::study::{self, Case, Summary};
 use uam::Structure;
-use uam::options::Choice;
 
 use super::{Progress, build_here, complain, speed, wrote};
 
@@ -50,6 +49,5 @@ fn run_all(pair: &Pair) -> Result<Vec<Case>> {
 }
 
 fn prefix(run: &Run) -> String {
-    let parameters = &run.scenario.parameters;
-    format!("{}.kd{}.", parameters.ik.resolution.name(), parameters.autopilot.roll.kd)
+    format!("{}.", run.scenario.id)
 }

@@ -5,13 +5,14 @@ use std::time::Instant;
 
 use anyhow::Result;
 use fmu_build::study;
-use uam::scenarios::catalogue;
+use uam::scenarios::{PICK_UP, catalogue};
 
 use super::{Pairs, Progress, complain};
 use crate::cli::ThesisArguments;
 
 pub fn execute(arguments: &ThesisArguments, out: &Path) -> Result<()> {
-    let scenarios = catalogue()?;
+    let mut scenarios = catalogue()?;
+    scenarios.retain(|scenario| scenario.id != PICK_UP);
     let pairs = Pairs::build(out, scenarios.iter().map(|scenario| scenario.structure))?;
     let progress = Progress::of(&scenarios, "Simulating")?;
     let begin = Instant::now();

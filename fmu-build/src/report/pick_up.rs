@@ -3,6 +3,8 @@
 use maud::html;
 
 use super::{Error, Figure, Report, Series, Topic, figures, style};
+use uam::scenarios::PICK_UP;
+
 use crate::claims::Quantity;
 use crate::run::Run;
 use crate::study::{self, Case};
@@ -16,7 +18,7 @@ const AFTERWARDS: f64 = 1.0;
 /// If a case is missing or a figure cannot be drawn.
 pub fn report(cases: &[Case]) -> Result<Report, Error> {
     let find = |id: &str| cases.iter().find(|case| case.scenario.id == id).ok_or(Error::Empty);
-    let (extended, minimum) = (find("4.3b")?, find("4.3a")?);
+    let (extended, minimum) = (find(PICK_UP)?, find("4.3a")?);
     let pick_up = both(extended.exact(), minimum.exact());
     let mut figures = figures::all(&pick_up)?;
     for figure in &mut figures {
@@ -36,7 +38,8 @@ pub fn report(cases: &[Case]) -> Result<Report, Error> {
                 (scenario.parameters.payload.mass) " kg that rest on a spring, and lifts them. The arm has one joint "
                 "more than the path needs. The controller uses it either for the smallest joint rates (minimum norm), "
                 "or to keep the moment of the arm off the UAV (extended Jacobian). This is the simulation of thesis "
-                "section 4.3."
+                "section 4.3, with the free motion of the arm damped beside the extended Jacobian; without damping, as in "
+                "the thesis, it is called 4.3b in the table."
             }
             p {
                 code { "uam_controller.fmu" } " and " code { "uam_plant.fmu" } ", loaded through their C interface and "

@@ -10,7 +10,7 @@
 
 use nalgebra::SVector;
 
-use super::{Interval, Problem, Resolved, Resolver};
+use super::{Aims, Interval, Problem, Resolved, Resolver};
 use crate::controller::Status;
 use crate::controller::limits::Allowed;
 use crate::planar::Vec2;
@@ -33,7 +33,7 @@ impl Resolver {
         problem: &Problem<N>,
     ) -> Resolved<N> {
         let allowed = self.allowed(vehicle, interval);
-        let Problem { mut path, mut velocity, mut moment } = *problem;
+        let Problem { mut path, mut velocity, mut moment, .. } = *problem;
         let mut rate = SVector::zeros();
         for i in self.links..N {
             rate[i] = allowed.least[i];
@@ -42,12 +42,15 @@ impl Resolver {
             path.column_mut(i).fill(0.0);
             moment.row[i] = 0.0;
         }
-        let wanted = self.along_path(&Problem { path, velocity, moment }, true);
+        let aims = interval.aims;
+        let joints = Problem { path, velocity, moment, ..*problem };
+        let wanted = self.along_path(&joints, aims == Aims::All);
+        let wanted = self.set_going(vehicle, interval.beginning, &joints, wanted);
         let mut resolved = Resolved {
             rate: rate + wanted.rate,
             status: wanted.status(),
             min_singular_value: wanted.min_singular_value,
-            moment: moment.value - moment.row.dot(&wanted.rate),
+            momentum: problem.moment.row.dot(&(rate + wanted.rate)),
             places: qp::FREE,
         };
         let links = self.links;
@@ -55,16 +58,17 @@ impl Resolver {
             return resolved;
         }
 
-        let mean = moment.row / allowed.size;
+        let mean = if aims == Aims::All { moment.row / problem.interval } else { SVector::zeros() };
         let wanted_rate = &wanted.rate.as_slice()[..links];
         let program = program(path.as_slice(), mean.as_slice(), wanted_rate, &allowed, self.rate_penalty);
         let found = qp::solve(&program, interval.guess);
         rate.as_mut_slice()[..links].copy_from_slice(&found.x[..links]);
-        resolved.moment = problem.moment.value - problem.moment.row.dot(&rate);
+        resolved.momentum = problem.moment.row.dot(&rate);
+        let moment = problem.moment.value - resolved.momentum;
         let held_back = found.places[..links].iter().any(|place| matches!(place, Place::Lower | Place::Upper));
         if found.outcome != Outcome::Solved {
             resolved.status = Status::PathLimited;
-        } else if held_back && resolved.moment.abs() > NO_MOMENT * allowed.size && !wanted.path_damped {
+        } else if held_back && moment.abs() > NO_MOMENT * problem.interval && !wanted.path_damped {
             resolved.status = Status::TaskLimited;
         }
         Resolved { rate, places: found.places, ..resolved }

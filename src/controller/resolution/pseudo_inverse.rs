@@ -18,6 +18,9 @@ pub const PATH_THRESHOLD: f64 = 2e-2;
 /// The second task is damped where less than this share of its row is left beside the path.
 const TASK_THRESHOLD: f64 = 1e-2;
 
+/// What is below this share of a row is rounding.
+const ROUNDING: f64 = 1e-12;
+
 /// One scalar equation `row . q_dot = value`.
 #[derive(Debug, Clone, Copy)]
 pub struct Task<const N: usize> {
@@ -34,6 +37,8 @@ pub struct Problem<const N: usize> {
     pub path: SMatrix<f64, 2, N>,
     /// `path` * rate = `velocity` follows the path \[m/s\].
     pub velocity: Vec2,
+    /// Length of the interval \[s\].
+    pub interval: f64,
     /// The rates that meet it exert no moment on the UAV in the mean: an impulse \[N m s\].
     pub moment: Task<N>,
 }
@@ -117,30 +122,40 @@ impl<const N: usize> Problem<N> {
     /// arm \[m\].
     #[must_use]
     pub fn resolve(&self, axes: PathAxes, without_moment: bool, reach: f64) -> PseudoInverse<N> {
+        self.resolve_to(axes, without_moment, &Thresholds::of(reach))
+    }
+
+    /// The same with other thresholds.
+    #[inline]
+    pub(super) fn resolve_to(
+        &self,
+        axes: PathAxes,
+        without_moment: bool,
+        thresholds: &Thresholds,
+    ) -> PseudoInverse<N> {
         let gram = Gram::new(&self.path, axes);
-        let threshold = PATH_THRESHOLD * reach;
         // Where nothing is damped, without directions and their square roots: a third of the time.
-        if gram.smallest >= threshold * threshold
-            && let Some(rate) = self.undamped(&gram, without_moment)
+        if gram.smallest >= thresholds.path * thresholds.path
+            && let Some(rate) = self.undamped(&gram, without_moment, thresholds.task)
         {
             let min_singular_value = gram.smallest.sqrt();
             return PseudoInverse { rate, min_singular_value, path_damped: false, task_damped: false };
         }
-        self.padded().damped(&gram, without_moment, threshold).of_the_first()
+        self.padded().damped(&gram, without_moment, thresholds).of_the_first()
     }
 
     /// The same with more coordinates, which move nothing.
     pub(super) fn padded(&self) -> Problem<MAX_COORDINATES> {
-        let Self { path, velocity, moment: Task { row, value } } = *self;
+        let Self { path, velocity, interval, moment: Task { row, value } } = *self;
         let row = row.fixed_resize::<MAX_COORDINATES, 1>(0.0);
-        Problem { path: path.fixed_resize::<2, MAX_COORDINATES>(0.0), velocity, moment: Task { row, value } }
+        Problem { path: path.fixed_resize::<2, MAX_COORDINATES>(0.0), velocity, interval, moment: Task { row, value } }
     }
 
     /// [`Problem::resolve`] far from singular configurations; none if that of the task is not far.
     #[inline]
-    fn undamped(&self, gram: &Gram, without_moment: bool) -> Option<SVector<f64, N>> {
+    fn undamped(&self, gram: &Gram, without_moment: bool, threshold: f64) -> Option<SVector<f64, N>> {
         let &Gram { xx, xy, yy, determinant, .. } = gram;
-        let Self { path, velocity, moment: task } = self;
+        let Self { path, velocity, moment: task, .. } = self;
         let inverse = 1.0 / determinant;
         // J^T (J J^T)^-1 w.
         let lift = |w: Vec2| path.transpose() * (vec2(yy * w.x - xy * w.y, xx * w.y - xy * w.x) * inverse);
@@ -148,7 +163,7 @@ impl<const N: usize> Problem<N> {
         if without_moment {
             let free = task.row - lift(path * task.row);
             let left = free.norm_squared();
-            if left < TASK_THRESHOLD * TASK_THRESHOLD * task.row.norm_squared() || left < f64::MIN_POSITIVE {
+            if left < threshold * threshold * task.row.norm_squared() || left < f64::MIN_POSITIVE {
                 return None;
             }
             rate += free * ((task.value - task.row.dot(&rate)) / left);
@@ -158,35 +173,89 @@ impl<const N: usize> Problem<N> {
 }
 
 impl Problem<MAX_COORDINATES> {
-    /// [`Problem::resolve`] wherever the arm is, with singular values below `threshold` \[m\] damped. For the largest
-    /// number of coordinates: the library holds one copy.
+    /// Velocities per rate in the directions in which the arm moves easily and hardly \[m\].
+    fn directions(&self, gram: &Gram) -> [SVector<f64, MAX_COORDINATES>; 2] {
+        let strong = gram.strong();
+        [strong, perp(strong)].map(|direction| self.path.transpose() * direction)
+    }
+
+    /// What of the row of the second task moves the end effector in none of the `directions`, however hardly the arm moves
+    /// in them.
+    fn beside_path(&self, directions: &[SVector<f64, MAX_COORDINATES>; 2]) -> SVector<f64, MAX_COORDINATES> {
+        let [easily, hardly] = directions;
+        let Some(first) = easily.try_normalize(f64::MIN_POSITIVE) else { return self.moment.row };
+        let free = self.moment.row - first * first.dot(&self.moment.row);
+        let hardly = hardly - first * first.dot(hardly);
+        // In a singular configuration, what is left there is rounding.
+        match hardly.try_normalize(ROUNDING * easily.norm()) {
+            Some(second) => free - second * second.dot(&free),
+            None => free,
+        }
+    }
+
+    /// The share of the row of the second task that is left beside the path.
+    pub(super) fn share_beside_path(&self, gram: &Gram) -> f64 {
+        self.beside_path(&self.directions(gram)).norm() / self.moment.row.norm().max(f64::MIN_POSITIVE)
+    }
+
+    /// [`Problem::resolve`] wherever the arm is. For the largest number of coordinates: the library holds one copy.
     #[cold]
     #[inline(never)]
-    fn damped(&self, gram: &Gram, without_moment: bool, threshold: f64) -> PseudoInverse<MAX_COORDINATES> {
-        let Self { path, velocity, moment: task } = self;
+    fn damped(&self, gram: &Gram, without_moment: bool, thresholds: &Thresholds) -> PseudoInverse<MAX_COORDINATES> {
+        let Self { velocity, interval, moment: task, .. } = self;
         // The directions in which the arm moves easily and hardly: each is damped on its own.
         let strong = gram.strong();
         let weak = perp(strong);
-        let min_singular_value = gram.smallest.sqrt();
-        let damping_weak = damping(min_singular_value, threshold);
-        let (gain_strong, gain_weak) =
-            (1.0 / (gram.largest + damping(gram.largest.sqrt(), threshold)), 1.0 / (gram.smallest + damping_weak));
-        // J^T (J J^T + damping)^-1 w.
-        let lift =
-            |w: Vec2| path.transpose() * (strong * (strong.dot(&w) * gain_strong) + weak * (weak.dot(&w) * gain_weak));
-
-        let mut rate = lift(*velocity);
+        let sizes = [gram.largest.sqrt(), gram.smallest.sqrt()];
+        let directions = self.directions(gram);
+        let mut rate = SVector::zeros();
+        for ((direction, row), size) in [strong, weak].iter().zip(&directions).zip(sizes) {
+            let wanted = direction.dot(velocity);
+            let damping = thresholds.damping(size, wanted * interval);
+            rate += row * (wanted / (size * size + damping).max(f64::MIN_POSITIVE));
+        }
+        let min_singular_value = sizes[1];
+        let nearness = (min_singular_value / thresholds.path).min(1.0);
         let mut task_damped = false;
         if without_moment {
-            let free = task.row - lift(path * task.row);
+            let free = self.beside_path(&directions);
             let size = task.row.norm();
             let share = free.norm() / size.max(f64::MIN_POSITIVE);
-            let damping = damping(share, TASK_THRESHOLD) * size * size;
-            task_damped = damping > 0.0;
-            let missing = task.value - task.row.dot(&rate);
+            let damping = damping(share, thresholds.task) * size * size;
+            task_damped = damping > 0.0 || nearness < 1.0;
+            let missing = (task.value - task.row.dot(&rate)) * nearness * nearness;
             rate += free * (missing / (free.norm_squared() + damping).max(f64::MIN_POSITIVE));
         }
-        PseudoInverse { rate, min_singular_value, path_damped: damping_weak > 0.0, task_damped }
+        PseudoInverse { rate, min_singular_value, path_damped: nearness < 1.0, task_damped }
+    }
+}
+
+/// Below which singular values and shares rates are damped.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Thresholds {
+    /// Singular value of the path \[m\].
+    pub path: f64,
+    /// Share of the row of the second task that is left beside the path.
+    pub task: f64,
+    /// Length of the stretched arm \[m\].
+    pub reach: f64,
+}
+
+impl Thresholds {
+    /// For an arm that is stretched as long as `reach` \[m\].
+    pub fn of(reach: f64) -> Self {
+        Self { path: PATH_THRESHOLD * reach, task: TASK_THRESHOLD, reach }
+    }
+
+    /// Square of the damping factor in a direction with this singular value, in which the end effector is to move by
+    /// `way` in the interval \[m\].
+    ///
+    /// A reference beyond reach asks for the same way again in each interval. A stretched arm answers to
+    /// it in proportion to the angle by which it is bent, and that angle changes by its rate times the interval: with less
+    /// damping than way times reach it would swing to the other side.
+    fn damping(&self, singular_value: f64, way: f64) -> f64 {
+        let share = (singular_value / self.path).min(1.0);
+        (self.path * self.path + way.abs() * self.reach) * (1.0 - share) * (1.0 - share)
     }
 }
 

@@ -3,7 +3,7 @@
 
 use nalgebra::SVector;
 
-use super::pseudo_inverse::{Gram, Problem, PseudoInverse};
+use super::pseudo_inverse::{Gram, Problem, PseudoInverse, Thresholds};
 use crate::parameters::{Joint, MAX_COORDINATES, PathAxes};
 
 /// The weights of the joints' rates; what balances the arm has none.
@@ -39,6 +39,9 @@ impl Weights {
     }
 }
 
+/// Singular values \[m\] and shares below this are rounding.
+const NOTHING: f64 = 1e-10;
+
 #[cold]
 #[inline(never)]
 fn scale(joints: &[Joint]) -> SVector<f64, MAX_COORDINATES> {
@@ -56,11 +59,26 @@ fn weighted(
     without_moment: bool,
     reach: f64,
 ) -> PseudoInverse<MAX_COORDINATES> {
-    let min_singular_value = Gram::new(&problem.path, axes).smallest.sqrt();
+    let plain = Thresholds::of(reach);
+    let unweighted = Gram::new(&problem.path, axes);
+    let share = problem.share_beside_path(&unweighted);
     for (mut column, scale) in problem.path.column_iter_mut().zip(scale) {
         column *= *scale;
     }
     problem.moment.row.component_mul_assign(scale);
-    let found = problem.resolve(axes, without_moment, reach);
-    PseudoInverse { rate: found.rate.component_mul(scale), min_singular_value, ..found }
+    let gram = Gram::new(&problem.path, axes);
+    // Weights do not bring a configuration nearer to a singular one: rates are damped where equal weights would damp them.
+    let ratio = |weighted: f64, plain: f64| if plain > NOTHING { weighted / plain } else { 1.0 };
+    let stretch = ratio(gram.smallest.sqrt(), unweighted.smallest.sqrt());
+    let thresholds = Thresholds {
+        path: plain.path * stretch,
+        task: plain.task * ratio(problem.share_beside_path(&gram), share),
+        reach: plain.reach * stretch * stretch,
+    };
+    let found = problem.resolve_to(axes, without_moment, &thresholds);
+    PseudoInverse {
+        rate: found.rate.component_mul(scale),
+        min_singular_value: unweighted.smallest.sqrt(),
+        ..found
+    }
 }

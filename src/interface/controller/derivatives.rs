@@ -33,6 +33,7 @@ pub const ALL: &[(&str, Derivative<Data>)] = &[
     ("ik.min_singular_value", HELD),
     ("ik.velocity_residual", HELD),
     ("ik.moment_residual", HELD),
+    ("ik.late_miss", HELD),
 ];
 
 /// Changes at communication points only, or is extrapolated as if.
