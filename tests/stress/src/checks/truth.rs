@@ -1,0 +1,72 @@
+//! Where the status says that the path is kept (`ok`, `task_*`), the prediction at the end of the planned interval is on
+//! the reference to 1e-6 m, and beyond that only as far as `ik.late_miss` says afterwards, on a clock that is not even.
+
+use uam::parameters::PathAxes;
+
+use super::{Check, Now};
+use crate::case::Case;
+use crate::draw::clock::Clock;
+
+/// On the reference \[m\].
+const NEAR: f64 = 1e-6;
+
+pub struct Truth<'a> {
+    case: &'a Case,
+    /// The status at the last plan, if that is said to keep the path.
+    kept: Option<&'static str>,
+    /// How far the reference has moved since then beyond what was foreseen \[m\].
+    unforeseen: f64,
+    looked: bool,
+}
+
+impl<'a> Truth<'a> {
+    pub fn of(case: &'a Case) -> Self {
+        Self { case, kept: None, unforeseen: 0.0, looked: false }
+    }
+
+    /// Whether the interval that ends now took as long as it was planned for.
+    fn as_planned(&self, count: usize) -> bool {
+        let steps = &self.case.steps;
+        let known = steps.clock == Clock::Even && (count > 1 || steps.sample_time == steps.step);
+        // What was planned by other laws is not what happens.
+        known && !self.case.change.as_ref().is_some_and(|change| change.of_laws && change.step + 1 == count)
+    }
+}
+
+impl Check for Truth<'_> {
+    fn name(&self) -> &'static str {
+        "truth"
+    }
+
+    fn see(&mut self, now: &Now<'_>) -> Result<(), String> {
+        let Some(per_plan) = self.case.steps.per_plan else { return Ok(()) };
+        self.unforeseen += now.unforeseen;
+        if now.count % per_plan != 0 {
+            return Ok(());
+        }
+        let unforeseen = std::mem::take(&mut self.unforeseen);
+        let status = now.seen.status();
+        let keeps = status == "ok" || status.starts_with("task_");
+        let before = std::mem::replace(&mut self.kept, keeps.then_some(status));
+        let Some(status) = before else { return Ok(()) };
+        let late = match now.seen.late_miss() {
+            Some(late) => late,
+            None if self.as_planned(now.count) => 0.0,
+            None => return Ok(()),
+        };
+        self.looked = true;
+        let [x, y] = now.seen.miss();
+        let miss = match self.case.parameters.ik.path_axes {
+            PathAxes::Both => (x * x + y * y).sqrt(),
+            PathAxes::Horizontal => x.abs(),
+        };
+        if miss > NEAR + late + unforeseen {
+            return Err(format!("{status}, but the planned end misses by {miss:.2e} m"));
+        }
+        Ok(())
+    }
+
+    fn looked(&self) -> bool {
+        self.looked
+    }
+}

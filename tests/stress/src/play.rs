@@ -1,0 +1,240 @@
+//! Runs couplings and looks at them.
+
+use std::collections::BTreeMap;
+
+use misuse::digest::Digest;
+use misuse::unit::Unit;
+use uam::interface::controller::ControllerUnit;
+use uam::interface::plant::PlantUnit;
+use uam::parameters::{Hold, PathAxes, Resolution};
+use uam::planar::Vec2;
+
+use crate::case::Case;
+use crate::checks::{self, Check, Ending, Now};
+use crate::environment::Environment;
+use crate::pair::Pair;
+use crate::report::Report;
+use crate::seen::{Places, Seen};
+
+/// A promise that was broken.
+#[derive(Debug, Clone)]
+pub struct Broken {
+    /// Which.
+    pub check: &'static str,
+    /// When for the first time, from the start \[s\].
+    pub time: f64,
+    /// What was found.
+    pub found: String,
+}
+
+/// What a run came to.
+#[derive(Default)]
+struct Track {
+    digest: u64,
+    steps: u64,
+    ending: Ending,
+    statuses: [u64; 16],
+    broken: Vec<Broken>,
+    looked: Vec<&'static str>,
+}
+
+/// One thread's instances, one pair for each structure, which are made as new for each run.
+pub struct Player<'a> {
+    units: &'a [Unit; 2],
+    environment: Environment,
+    pairs: BTreeMap<String, Pair<'a>>,
+}
+
+impl<'a> Player<'a> {
+    /// Without instances so far.
+    pub fn new(units: &'a [Unit; 2], environment: Environment) -> Self {
+        Self { units, environment, pairs: BTreeMap::new() }
+    }
+
+    /// Plays one case.
+    ///
+    /// # Errors
+    /// If the units cannot be used at all.
+    pub fn play(&mut self, case: &Case) -> Result<Report, String> {
+        let mut track = self.run(case, checks::all(case))?;
+        if case.path.at_rest.is_finite() && case.is_exact() && track.complete(case) {
+            track.looked.push("rest");
+            let found = checks::rest(track.ending, || Ok(self.run(&minimum_norm(case), Vec::new())?.ending));
+            track.note("rest", track.time(case), found);
+        }
+        if case.again {
+            track.looked.push("same again");
+            let again = self.run(case, Vec::new())?.digest;
+            let found = if again == track.digest { Ok(()) } else { Err("another run has other bits".to_owned()) };
+            track.note("same again", track.time(case), found);
+        }
+        Ok(Report::of(case, track.digest, track.steps, &track.statuses, &track.looked, track.broken))
+    }
+
+    /// Runs a case once.
+    fn run(&mut self, case: &Case, mut checks: Vec<Box<dyn Check + '_>>) -> Result<Track, String> {
+        let key = case.structure.to_string();
+        if !self.pairs.contains_key(&key) {
+            let pair = Pair::new::<ControllerUnit, PlantUnit>(self.units, case.structure, self.environment)?;
+            self.pairs.insert(key.clone(), pair);
+        }
+        let pair = self.pairs.get_mut(&key).ok_or("no pair")?;
+        pair.controller.reset()?;
+        pair.plant.reset()?;
+        let mut run = Run::of(case, pair)?;
+        if let Err(found) = run.to_the_end(&mut checks) {
+            run.track.note(checks::FINITE, run.time, Err(found));
+        } else {
+            for check in &mut checks {
+                let found = check.end();
+                run.track.note(check.name(), run.time, found);
+            }
+        }
+        let mut track = run.track;
+        track.digest = run.digest.value();
+        track.looked = checks.iter().filter(|check| check.looked()).map(|check| check.name()).collect();
+        track.looked.extend(case.back.map(|_| BACK));
+        Ok(track)
+    }
+}
+
+/// Name of the check that a state leads to where it was saved.
+const BACK: &str = "same after roll-back";
+
+impl Track {
+    fn complete(&self, case: &Case) -> bool {
+        self.steps == case.steps.steps.len() as u64
+    }
+
+    fn time(&self, case: &Case) -> f64 {
+        case.steps.steps.iter().take(self.steps as usize).map(|(_, size)| size).sum()
+    }
+
+    /// Notes what a check found, if it is the first of that check.
+    fn note(&mut self, check: &'static str, time: f64, found: Result<(), String>) {
+        if let Err(found) = found
+            && self.broken.iter().all(|broken| broken.check != check)
+        {
+            self.broken.push(Broken { check, time, found });
+        }
+    }
+}
+
+/// The same case with the smallest rates.
+fn minimum_norm(case: &Case) -> Case {
+    let mut other = case.again();
+    let ik = &mut other.parameters.ik;
+    (ik.resolution, ik.hold, ik.path_axes) = (Resolution::MinimumNorm, Hold::ZeroOrder, PathAxes::Both);
+    other
+}
+
+/// A run under way.
+struct Run<'r, 'a> {
+    case: &'r Case,
+    pair: &'r mut Pair<'a>,
+    places: Places,
+    origin: Vec2,
+    duration: f64,
+    time: f64,
+    digest: Digest,
+    track: Track,
+}
+
+impl<'r, 'a> Run<'r, 'a> {
+    fn of(case: &'r Case, pair: &'r mut Pair<'a>) -> Result<Self, String> {
+        Ok(Self {
+            case,
+            places: Places::of(pair)?,
+            pair,
+            origin: case.origin(),
+            duration: case.steps.steps.iter().map(|(_, size)| size).sum(),
+            time: 0.0,
+            digest: Digest::EMPTY,
+            track: Track::default(),
+        })
+    }
+
+    fn to_the_end(&mut self, checks: &mut [Box<dyn Check + '_>]) -> Result<(), String> {
+        let values = self.case.values();
+        let named = || values.iter().map(|(name, value)| (name.as_str(), *value));
+        self.pair.controller.set_all(named())?;
+        self.pair.plant.set_all(named())?;
+        let start = self.case.steps.start();
+        self.pair.controller.begin(start)?;
+        self.pair.plant.begin(start)?;
+        self.look(checks, 0, 0.0, 0.0);
+        let mut expected = None;
+        for k in 0..self.case.steps.steps.len() {
+            if let Some((at, count)) = self.case.back {
+                if k == at {
+                    expected = Some(self.there_and_back(at, count)?);
+                }
+                if k == at + count && expected.is_some_and(|digest: u64| digest != self.shown()) {
+                    self.track.note(BACK, self.time, Err(format!("other bits {count} steps after time of return")));
+                }
+            }
+            let (size, unforeseen) = self.step(k)?;
+            self.time += size;
+            self.track.steps += 1;
+            self.look(checks, k + 1, size, unforeseen);
+        }
+        Ok(())
+    }
+
+    /// Makes step `k`; its length \[s\], and how far the reference moves beyond what can be foreseen \[m\].
+    fn step(&mut self, k: usize) -> Result<(f64, f64), String> {
+        let (from, size) = self.case.steps.steps[k];
+        if let Some(change) = self.case.change.as_ref().filter(|change| change.step == k) {
+            let named = || change.values.iter().map(|(name, value)| (name.as_str(), *value));
+            self.pair.controller.set_all(named())?;
+            self.pair.plant.set_all(named())?;
+        }
+        let Some(external) = &self.case.path.external else {
+            self.pair.step(from, size, None)?;
+            return Ok((size, 0.0));
+        };
+        let (now, next) = (external.at(self.origin, self.time), external.at(self.origin, self.time + size));
+        let (v, a) = (now.velocity, now.acceleration);
+        let foreseen = now.displacement + v * size + a * (0.5 * size * size);
+        let wanted = [now.displacement.x, now.displacement.y, v.x, v.y, a.x, a.y];
+        self.pair.step(from, size, Some(wanted))?;
+        Ok((size, (next.displacement - foreseen).norm()))
+    }
+
+    /// Goes on from step `at` by `count` steps, and back; what it showed there.
+    fn there_and_back(&mut self, at: usize, count: usize) -> Result<u64, String> {
+        let states = [self.pair.controller.save()?, self.pair.plant.save()?];
+        let time = self.time;
+        let went = (at..at + count).try_for_each(|k| {
+            let (size, _) = self.step(k)?;
+            self.time += size;
+            Ok::<_, String>(())
+        });
+        let shown = self.shown();
+        self.pair.controller.restore(states[0])?;
+        self.pair.plant.restore(states[1])?;
+        self.time = time;
+        self.pair.read()?;
+        // Where these steps cannot be made they are refused again.
+        Ok(if went.is_ok() { shown } else { 0 })
+    }
+
+    /// All that both show now.
+    fn shown(&self) -> u64 {
+        let mut digest = Digest::EMPTY;
+        self.pair.controller.values.iter().chain(&self.pair.plant.values).for_each(|value| digest.take_number(*value));
+        digest.value()
+    }
+
+    fn look(&mut self, checks: &mut [Box<dyn Check + '_>], count: usize, size: f64, unforeseen: f64) {
+        let seen = Seen::of(self.pair, self.places);
+        seen.controller.iter().chain(seen.plant).for_each(|value| self.digest.take_number(*value));
+        let now = Now { count, time: self.time, size, unforeseen, seen };
+        self.track.ending.see(self.case, self.duration, &now);
+        self.track.statuses[seen.status_number().min(15)] += 1;
+        for check in checks {
+            let found = check.see(&now);
+            self.track.note(check.name(), self.time, found);
+        }
+    }
+}
