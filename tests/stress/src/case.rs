@@ -73,7 +73,7 @@ impl Case {
         draw::method::draw(draw, structure, &mut p);
         let others = draw::method::damping(draw);
         let limits = draw::limits::draw(draw, structure, &mut p);
-        let rest = if draw.percent(12) { REST } else { 0.0 };
+        let rest = if draw.percent(8) { REST } else { 0.0 };
         let duration = if rest > 0.0 { rest + draw.between(0.6, 2.5) } else { LEAST.0 };
         let steps = draw::clock::draw(draw, duration, LEAST.1);
         p.ik.sample_time = steps.sample_time;
@@ -133,6 +133,12 @@ impl Case {
     /// Whether limits of acceleration and position count.
     pub fn has_stops(&self) -> bool {
         self.parameters.ik.resolution == Resolution::LeastSquares
+    }
+
+    /// Whether the method asks for no moment on the UAV.
+    pub fn cancels_moment(&self) -> bool {
+        use Resolution::{AccelerationLevel, ExtendedJacobian, LeastSquares};
+        matches!(self.parameters.ik.resolution, ExtendedJacobian | LeastSquares | AccelerationLevel)
     }
 
     /// The whole as a file that other programs read, behind a comment with what such files do not hold.

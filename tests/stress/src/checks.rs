@@ -9,7 +9,7 @@ mod stops;
 mod truth;
 
 pub use finite::NAME as FINITE;
-pub use rest::{Ending, rest};
+pub use rest::{Ending, promises_rest, rest};
 
 use crate::case::Case;
 use crate::seen::Seen;

@@ -57,7 +57,7 @@ impl<'a> Player<'a> {
     /// If the units cannot be used at all.
     pub fn play(&mut self, case: &Case) -> Result<Report, String> {
         let mut track = self.run(case, checks::all(case))?;
-        if case.path.at_rest.is_finite() && case.is_exact() && track.complete(case) {
+        if checks::promises_rest(case) && track.complete(case) {
             track.looked.push("rest");
             let found = checks::rest(track.ending, || Ok(self.run(&minimum_norm(case), Vec::new())?.ending));
             track.note("rest", track.time(case), found);
@@ -136,6 +136,8 @@ struct Run<'r, 'a> {
     origin: Vec2,
     duration: f64,
     time: f64,
+    /// What of the reference was not to be foreseen in the last steps \[m\].
+    unforeseen: [f64; 3],
     digest: Digest,
     track: Track,
 }
@@ -149,6 +151,7 @@ impl<'r, 'a> Run<'r, 'a> {
             origin: case.origin(),
             duration: case.steps.steps.iter().map(|(_, size)| size).sum(),
             time: 0.0,
+            unforeseen: [0.0; 3],
             digest: Digest::EMPTY,
             track: Track::default(),
         })
@@ -193,18 +196,25 @@ impl<'r, 'a> Run<'r, 'a> {
             self.pair.step(from, size, None)?;
             return Ok((size, 0.0));
         };
-        let (now, next) = (external.at(self.origin, self.time), external.at(self.origin, self.time + size));
+        let now = external.at(self.origin, self.time);
         let (v, a) = (now.velocity, now.acceleration);
-        let foreseen = now.displacement + v * size + a * (0.5 * size * size);
         let wanted = [now.displacement.x, now.displacement.y, v.x, v.y, a.x, a.y];
         self.pair.step(from, size, Some(wanted))?;
-        Ok((size, (next.displacement - foreseen).norm()))
+        // Values belong to the beginning of this step; a plan that is made at its end looks one plan ahead from there.
+        let unforeseen = |ahead: f64| {
+            let foreseen = now.displacement + v * ahead + a * (0.5 * ahead * ahead);
+            (external.at(self.origin, self.time + ahead).displacement - foreseen).norm()
+        };
+        let steps = self.case.steps.per_plan.unwrap_or(1);
+        self.unforeseen.rotate_right(1);
+        self.unforeseen[0] = unforeseen(size) + unforeseen(size * (steps + 1) as f64);
+        Ok((size, self.unforeseen.iter().sum()))
     }
 
     /// Goes on from step `at` by `count` steps, and back; what it showed there.
     fn there_and_back(&mut self, at: usize, count: usize) -> Result<u64, String> {
         let states = [self.pair.controller.save()?, self.pair.plant.save()?];
-        let time = self.time;
+        let (time, unforeseen) = (self.time, self.unforeseen);
         let went = (at..at + count).try_for_each(|k| {
             let (size, _) = self.step(k)?;
             self.time += size;
@@ -213,7 +223,7 @@ impl<'r, 'a> Run<'r, 'a> {
         let shown = self.shown();
         self.pair.controller.restore(states[0])?;
         self.pair.plant.restore(states[1])?;
-        self.time = time;
+        (self.time, self.unforeseen) = (time, unforeseen);
         self.pair.read()?;
         // Where these steps cannot be made they are refused again.
         Ok(if went.is_ok() { shown } else { 0 })

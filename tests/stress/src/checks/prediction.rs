@@ -1,4 +1,4 @@
-//! Plant and prediction agree to 1e-7 in poses, positions and place of the end effector (1e-6 in velocities), where the
+//! Plant and prediction agree to 1e-9 in poses, positions and place of the end effector (1e-8 in velocities), where the
 //! prediction leaves nothing out: base model full, all parameters the same.
 
 use uam::autopilot::AutopilotMode;
@@ -8,10 +8,10 @@ use super::{Check, Now};
 use crate::case::Case;
 
 /// Places \[m, rad\].
-const NEAR: f64 = 1e-7;
+const NEAR: f64 = 1e-9;
 
 /// Velocities of the base \[m/s, rad/s\].
-const SLOW: f64 = 1e-6;
+const SLOW: f64 = 1e-8;
 
 pub struct Prediction;
 

@@ -25,11 +25,17 @@ impl<'a> Truth<'a> {
     }
 
     /// Whether the interval that ends now took as long as it was planned for.
-    fn as_planned(&self, count: usize) -> bool {
+    fn as_planned(&self, now: &Now<'_>, per_plan: usize) -> bool {
         let steps = &self.case.steps;
-        let known = steps.clock == Clock::Even && (count > 1 || steps.sample_time == steps.step);
-        // What was planned by other laws is not what happens.
-        known && !self.case.change.as_ref().is_some_and(|change| change.of_laws && change.step + 1 == count)
+        let known =
+            steps.clock == Clock::Even && (now.count > per_plan || steps.sample_time == per_plan as f64 * steps.step);
+        // What was planned by other laws, or without the payload, is not what happens.
+        let begun = now.count - per_plan;
+        let change = self.case.change.as_ref();
+        let changed = change.is_some_and(|change| change.of_laws && (begun..now.count).contains(&change.step));
+        let grasp = self.case.parameters.payload.grasp_time;
+        let grasped = (now.time - per_plan as f64 * steps.step < grasp) && grasp < now.time;
+        known && !changed && !(grasped && per_plan > 1)
     }
 }
 
@@ -51,7 +57,7 @@ impl Check for Truth<'_> {
         let Some(status) = before else { return Ok(()) };
         let late = match now.seen.late_miss() {
             Some(late) => late,
-            None if self.as_planned(now.count) => 0.0,
+            None if self.as_planned(now, per_plan) => 0.0,
             None => return Ok(()),
         };
         self.looked = true;

@@ -82,12 +82,15 @@ pub fn draw(draw: &mut Draw, duration: f64, least: usize) -> Steps {
         (3, Clock::Nanoseconds),
         (7, Clock::Alternating),
         (7, Clock::Jittered),
-        (7, Clock::Random),
+        (5, Clock::Random),
     ]);
     let step = match clock {
         Clock::Random => 2e-3,
-        Clock::Microseconds | Clock::Nanoseconds => draw.one_of(&[1.0 / 600.0, 1.0 / 1024.0, 1.0 / 300.0, 1.0 / 60.0]),
-        _ => draw.weighed(&[(1, 2e-4), (3, 5e-4), (12, 1e-3), (10, 2e-3), (4, 5e-3), (5, 1e-2), (3, 2e-2)]),
+        Clock::Microseconds | Clock::Nanoseconds => {
+            draw.weighed(&[(4, 1.0 / 600.0), (4, 1.0 / 1024.0), (3, 1.0 / 300.0), (1, 1.0 / 60.0)])
+        }
+        // Long steps take long: a run has at least a thousand.
+        _ => draw.weighed(&[(1, 5e-4), (10, 1e-3), (24, 2e-3), (5, 5e-3), (4, 1e-2), (2, 2e-2)]),
     };
     let start = match clock {
         Clock::Late => draw.one_of(&[1e3, 1e6, 1.7e9, 2e9]),

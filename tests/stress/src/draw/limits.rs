@@ -18,6 +18,13 @@ pub enum Limits {
     Outside,
 }
 
+impl Limits {
+    /// Whether a way of some decimetres takes seconds.
+    pub fn are_narrow(self) -> bool {
+        matches!(self, Self::Tight | Self::Outside)
+    }
+}
+
 /// Limits for a method and start that are known.
 pub fn draw(draw: &mut Draw, structure: Structure, p: &mut Parameters) -> Limits {
     let limits = draw.weighed(&[(8, Limits::Wide), (4, Limits::Loose), (3, Limits::Tight), (1, Limits::Outside)]);

@@ -7,6 +7,9 @@ use uam::{Parameters, Structure};
 
 use super::Draw;
 
+/// Up to three jumps of this size are made good before a rest has ended \[m\]: what is left over is at 0.2 m/s.
+const SHORT: f64 = 0.1;
+
 /// A wanted motion that comes from outside.
 #[derive(Debug, Clone)]
 pub struct External {
@@ -61,7 +64,7 @@ pub fn draw(draw: &mut Draw, structure: Structure, p: &mut Parameters, duration:
     if p.ik.path_axes == PathAxes::Horizontal {
         reference.legs.iter_mut().for_each(|leg| leg.dy = 0.0);
     }
-    let external = external.then(|| External { path: *reference, jumps: jumps(draw, reach, moving) });
+    let external = external.then(|| External { path: *reference, jumps: jumps(draw, reach, moving, rest > 0.0) });
     if external.is_some() {
         reference.kind = ReferenceKind::External;
     } else if reference.kind != ReferenceKind::Circle {
@@ -88,12 +91,14 @@ fn legs(draw: &mut Draw, reference: &mut Reference, reach: f64, moving: f64) {
     }
 }
 
-/// Mostly none.
-fn jumps(draw: &mut Draw, reach: f64, moving: f64) -> Vec<(f64, [f64; 2])> {
+/// Mostly none; before a rest so short that they are made good in it.
+fn jumps(draw: &mut Draw, reach: f64, moving: f64, rests: bool) -> Vec<(f64, [f64; 2])> {
     let count = draw.weighed(&[(5, 0), (2, 1), (1, 3)]);
     (0..count)
         .map(|_| {
-            let way = Turn::by(draw.about_zero(3.14)).down() * reach * draw.scale(0.01, 0.4);
+            let size = reach * draw.scale(0.01, 0.4);
+            let size = if rests { size.min(SHORT) } else { size };
+            let way = Turn::by(draw.about_zero(3.14)).down() * size;
             (draw.between(0.1, 0.99) * moving, [way.x, way.y])
         })
         .collect()
