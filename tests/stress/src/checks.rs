@@ -11,6 +11,8 @@ mod truth;
 pub use finite::NAME as FINITE;
 pub use rest::{Ending, promises_rest, rest};
 
+use std::fmt;
+
 use crate::case::Case;
 use crate::seen::Seen;
 
@@ -27,6 +29,22 @@ pub struct Now<'a> {
     pub unforeseen: f64,
     /// What both units show.
     pub seen: Seen<'a>,
+}
+
+impl fmt::Display for Now<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { time, size, seen, .. } = self;
+        let ([x, y], late) = (seen.miss(), seen.late_miss().unwrap_or(f64::NAN));
+        write!(f, "{time:.9}, step {size:.9}, {}, miss {:.2e}, late {late:.2e}, ", seen.status(), x.hypot(y))?;
+        write!(f, "singular value {:.4}, pose {:.4?}, ", seen.singular_value(), seen.pose())?;
+        write!(
+            f,
+            "positions {:.4?}, rates {:.4?}, accelerations {:.1?}",
+            seen.positions(),
+            seen.rates(),
+            seen.accelerations()
+        )
+    }
 }
 
 /// A promise over one run.

@@ -64,6 +64,9 @@ struct Options {
     /// Tell broken promises as a table by promise, resolution and clock, without examples.
     #[arg(long)]
     summary: bool,
+    /// With --only: print every communication point.
+    #[arg(long, requires = "only")]
+    trace: bool,
     /// Play all again in each rounding mode that a host can set; the fingerprints must be equal.
     #[arg(long)]
     environments: bool,
@@ -99,7 +102,7 @@ fn run(options: &Options) -> Result<bool, String> {
     let mut clean = true;
     for environment in environments {
         let begin = Instant::now();
-        let player = || Ok(Player::new(&units, *environment));
+        let player = || Ok(Player::new(&units, *environment, options.trace));
         let play = |player: &mut Player<'_>, number| player.play(&Case::draw(options.seed, number));
         let report = crowd::share(numbers.clone(), options.threads, player, play, Report::and)?;
         if options.environments {

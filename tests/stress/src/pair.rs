@@ -72,12 +72,6 @@ impl<'a> Instance<'a> {
         self.outputs = outputs;
     }
 
-    /// The name of the output at this place among the values.
-    pub fn output(&self, place: usize) -> &str {
-        let found = self.variables.iter().find(|variable| variable.reference == self.outputs[place]);
-        found.map_or("", |variable| &variable.name)
-    }
-
     /// The place of an output among the values.
     pub fn place(&self, name: &str) -> Option<usize> {
         let reference = self.reference(name)?;

@@ -7,7 +7,7 @@ use comfy_table::Table;
 use uam::options::Choice;
 
 use crate::case::Case;
-use crate::play::Broken;
+use crate::play::{Broken, Track};
 use crate::seen::status_name;
 
 /// How many cases of a group are told one by one.
@@ -29,6 +29,7 @@ type Key = (&'static str, &'static str, &'static str);
 pub struct Report {
     cases: u64,
     failed: u64,
+    tumbled: u64,
     steps: u64,
     digest: u64,
     statuses: [u64; 16],
@@ -42,14 +43,7 @@ pub struct Report {
 
 impl Report {
     /// Of one run.
-    pub fn of(
-        case: &Case,
-        digest: u64,
-        steps: u64,
-        statuses: &[u64; 16],
-        looked: &[&'static str],
-        broken: Vec<Broken>,
-    ) -> Self {
+    pub fn of(case: &Case, track: Track) -> Self {
         let p = &case.parameters;
         let (resolution, clock) = (p.ik.resolution.name(), case.steps.clock.name());
         let kinds = [
@@ -63,7 +57,7 @@ impl Report {
             ("limits", format!("{:?}", case.limits)),
             ("clock", clock.to_owned()),
         ];
-        let failed = u64::from(!broken.is_empty());
+        let failed = u64::from(!track.broken.is_empty());
         let failure = |broken: Broken| {
             let key = (broken.check, resolution, clock);
             (key, (1, vec![Failure { number: case.number, case: case.to_string(), broken }]))
@@ -71,12 +65,13 @@ impl Report {
         Self {
             cases: 1,
             failed,
-            steps,
-            digest,
-            statuses: *statuses,
+            tumbled: track.tumbled.into(),
+            steps: track.steps,
+            digest: track.digest,
+            statuses: track.statuses,
             kinds: kinds.into_iter().map(|kind| (kind, 1)).collect(),
-            looked: looked.iter().map(|check| (*check, 1)).collect(),
-            broken: broken.into_iter().map(failure).collect(),
+            looked: track.looked.iter().map(|check| (*check, 1)).collect(),
+            broken: track.broken.into_iter().map(failure).collect(),
         }
     }
 
@@ -84,6 +79,7 @@ impl Report {
     pub fn and(mut self, other: Self) -> Self {
         self.cases += other.cases;
         self.failed += other.failed;
+        self.tumbled += other.tumbled;
         self.steps += other.steps;
         // The order of runs depends on the number of threads.
         self.digest = self.digest.wrapping_add(other.digest);
@@ -164,8 +160,8 @@ impl Report {
 
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { cases, failed, steps, .. } = self;
-        writeln!(f, "{cases} couplings, {steps} steps, {failed} couplings broke a promise")?;
+        let Self { cases, failed, tumbled, steps, .. } = self;
+        writeln!(f, "{cases} couplings, {steps} steps, {tumbled} turned over, {failed} broke a promise")?;
         for (check, looked) in &self.looked {
             let broken = self.broken.iter().filter(|((of, ..), _)| of == check).map(|(_, (count, _))| count);
             writeln!(f, "  {check}: broken in {} of {looked}", broken.sum::<u64>())?;
