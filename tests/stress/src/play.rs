@@ -93,7 +93,7 @@ impl<'a> Player<'a> {
         let mut run = Run::of(case, pair)?;
         // Runs that nobody looks at are those that others are compared with.
         run.traces = self.traces && !checks.is_empty();
-        if let Err(found) = run.to_the_end(&mut checks) {
+        if let Err(found) = run.play_through(&mut checks) {
             run.track.note(checks::FINITE, run.time, Err(found));
         } else {
             for check in &mut checks {
@@ -174,7 +174,7 @@ impl<'r, 'a> Run<'r, 'a> {
         })
     }
 
-    fn to_the_end(&mut self, checks: &mut [Box<dyn Check + '_>]) -> Result<(), String> {
+    fn play_through(&mut self, checks: &mut [Box<dyn Check + '_>]) -> Result<(), String> {
         let values = self.case.values();
         let named = || values.iter().map(|(name, value)| (name.as_str(), *value));
         self.pair.controller.set_all(named())?;

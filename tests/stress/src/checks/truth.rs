@@ -47,7 +47,7 @@ impl Check for Truth<'_> {
     fn see(&mut self, now: &Now<'_>) -> Result<(), String> {
         let Some(per_plan) = self.case.steps.per_plan else { return Ok(()) };
         self.unforeseen += now.unforeseen;
-        if now.count % per_plan != 0 {
+        if !now.count.is_multiple_of(per_plan) {
             return Ok(());
         }
         let unforeseen = std::mem::take(&mut self.unforeseen);

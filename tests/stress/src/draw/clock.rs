@@ -84,13 +84,14 @@ pub fn draw(draw: &mut Draw, duration: f64, least: usize) -> Steps {
         (7, Clock::Jittered),
         (5, Clock::Random),
     ]);
+    // Long steps are seldom: each takes as long as many short ones, and a run has at least a thousand.
     let step = match clock {
         Clock::Random => 2e-3,
         Clock::Microseconds | Clock::Nanoseconds => {
-            draw.weighed(&[(4, 1.0 / 600.0), (4, 1.0 / 1024.0), (3, 1.0 / 300.0), (1, 1.0 / 60.0)])
+            draw.weighed(&[(4, 1.0 / 600.0), (4, 1.0 / 1024.0), (2, 1.0 / 300.0)])
         }
-        // Long steps take long: a run has at least a thousand.
-        _ => draw.weighed(&[(1, 5e-4), (10, 1e-3), (24, 2e-3), (5, 5e-3), (4, 1e-2), (2, 2e-2)]),
+        Clock::Alternating | Clock::Jittered => draw.weighed(&[(8, 1e-3), (10, 2e-3), (2, 5e-3), (1, 1e-2)]),
+        _ => draw.weighed(&[(1, 5e-4), (12, 1e-3), (26, 2e-3), (4, 5e-3), (3, 1e-2), (1, 2e-2)]),
     };
     let start = match clock {
         Clock::Late => draw.one_of(&[1e3, 1e6, 1.7e9, 2e9]),

@@ -82,7 +82,11 @@ fn legs(draw: &mut Draw, reference: &mut Reference, reach: f64, moving: f64) {
     let mut before = Vec2::zeros();
     for (i, leg) in reference.legs.iter_mut().enumerate().take(count) {
         let size = reach * if far { draw.between(0.5, 1.5) } else { draw.scale(0.01, 0.5) };
-        let way = if i > 0 && draw.percent(50) { -before } else { Turn::by(draw.about_zero(3.14)).down() * size };
+        let way = if i > 0 && draw.percent(50) {
+            -before
+        } else {
+            Turn::by(draw.about_zero(std::f64::consts::PI)).down() * size
+        };
         let duration = share * draw.between(0.3, 0.99);
         let profile = draw.weighed(&[(3, Profile::Smooth), (1, Profile::Trapezoidal)]);
         let ramp = duration * draw.between(0.15, 0.5);
@@ -98,7 +102,7 @@ fn jumps(draw: &mut Draw, reach: f64, moving: f64, rests: bool) -> Vec<(f64, [f6
         .map(|_| {
             let size = reach * draw.scale(0.01, 0.4);
             let size = if rests { size.min(SHORT) } else { size };
-            let way = Turn::by(draw.about_zero(3.14)).down() * size;
+            let way = Turn::by(draw.about_zero(std::f64::consts::PI)).down() * size;
             (draw.between(0.1, 0.99) * moving, [way.x, way.y])
         })
         .collect()
