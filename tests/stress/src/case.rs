@@ -59,6 +59,8 @@ pub struct Case {
     pub back: Option<(usize, usize)>,
     /// Whether all of it is run again.
     pub again: bool,
+    /// Whether it is compared with a run on an even clock, if it is not on one.
+    pub compared: bool,
 }
 
 impl Case {
@@ -82,9 +84,23 @@ impl Case {
         payload(draw, structure, &mut p, duration);
         let count = steps.steps.len();
         let back = draw.percent(25).then(|| (draw.below(count - 60), 1 + draw.below(60)));
-        let again = draw.percent(5);
+        let (again, compared) = (draw.percent(5), draw.percent(25));
         let change = if draw.percent(15) { change(draw, structure, &p, count) } else { None };
-        Self { seed, number, structure, parameters: p, others, start, limits, path, steps, change, back, again }
+        Self {
+            seed,
+            number,
+            structure,
+            parameters: p,
+            others,
+            start,
+            limits,
+            path,
+            steps,
+            change,
+            back,
+            again,
+            compared,
+        }
     }
 
     /// Where the end effector is at the start \[m\].

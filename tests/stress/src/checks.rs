@@ -1,6 +1,8 @@
 //! What must hold: each promise in a file of its own.
 
+mod clock;
 mod finite;
+mod inside;
 mod limits;
 mod met;
 mod prediction;
@@ -8,8 +10,9 @@ mod rest;
 mod stops;
 mod truth;
 
+pub use clock::{clock, comparable};
 pub use finite::NAME as FINITE;
-pub use rest::{Ending, promises_rest, rest};
+pub use rest::{promises_rest, rest};
 
 use std::fmt;
 
@@ -71,6 +74,7 @@ pub fn all(case: &Case) -> Vec<Box<dyn Check + '_>> {
     let mut checks: Vec<Box<dyn Check + '_>> = vec![Box::new(finite::Finite), Box::new(limits::Limits::of(case))];
     if case.has_stops() {
         checks.push(Box::new(stops::Stops::of(case)));
+        checks.extend(inside::Inside::of(case).map(|check| Box::new(check) as Box<dyn Check>));
     }
     if case.is_exact() {
         checks.push(Box::new(truth::Truth::of(case)));

@@ -19,6 +19,7 @@ use misuse::{crowd, watch};
 
 mod case;
 mod checks;
+mod course;
 mod draw;
 mod environment;
 mod pair;
@@ -101,21 +102,25 @@ fn run(options: &Options) -> Result<bool, String> {
     let mut fingerprints = Vec::new();
     let mut clean = true;
     for environment in environments {
-        let begin = Instant::now();
-        let player = || Ok(Player::new(&units, *environment, options.trace));
-        let play = |player: &mut Player<'_>, number| player.play(&Case::draw(options.seed, number));
-        let report = crowd::share(numbers.clone(), options.threads, player, play, Report::and)?;
         if options.environments {
             println!("rounding: {environment:?}");
         }
+        let begin = Instant::now();
+        let player = || Ok(Player::new(&units, *environment, options.trace));
+        let play = |player: &mut Player<'_>, number| player.play(&Case::draw(options.seed, number));
+        let report = match crowd::share(numbers.clone(), options.threads, player, play, Report::and) {
+            Ok(report) => report,
+            Err(message) if options.environments => {
+                println!("{message}");
+                clean = false;
+                continue;
+            }
+            Err(message) => return Err(message),
+        };
         tell(options, &report);
-        println!(
-            "seed {}, {:.1} s, fingerprint {:016x}\n",
-            options.seed,
-            begin.elapsed().as_secs_f64(),
-            report.fingerprint()
-        );
-        fingerprints.push(report.fingerprint());
+        let (seconds, fingerprint) = (begin.elapsed().as_secs_f64(), report.fingerprint());
+        println!("seed {}, {seconds:.1} s, fingerprint {fingerprint:016x}\n", options.seed);
+        fingerprints.push(fingerprint);
         clean &= report.is_clean();
     }
     if fingerprints.iter().any(|fingerprint| *fingerprint != fingerprints[0]) {

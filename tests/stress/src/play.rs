@@ -10,7 +10,8 @@ use uam::parameters::{Hold, PathAxes, Resolution};
 use uam::planar::Vec2;
 
 use crate::case::Case;
-use crate::checks::{self, Check, Ending, Now};
+use crate::checks::{self, Check, Now};
+use crate::course::Course;
 use crate::environment::Environment;
 use crate::pair::Pair;
 use crate::report::Report;
@@ -42,7 +43,7 @@ pub struct Track {
     pub broken: Vec<Broken>,
     /// What was looked at.
     pub looked: Vec<&'static str>,
-    ending: Ending,
+    course: Course,
 }
 
 /// One thread's instances, one pair for each structure, which are made as new for each run.
@@ -68,8 +69,14 @@ impl<'a> Player<'a> {
         let mut track = self.run(case, checks::all(case))?;
         if checks::promises_rest(case) && (track.complete(case) || track.tumbled) {
             track.looked.push("rest");
-            let found = checks::rest(track.ending, || Ok(self.run(&minimum_norm(case), Vec::new())?.ending));
+            let found = checks::rest(&track.course, || Ok(self.run(&minimum_norm(case), Vec::new())?.course));
             track.note("rest", track.time(case), found);
+        }
+        if case.compared && checks::comparable(case) {
+            track.looked.push("clock");
+            let even = self.run(&on_even_clock(case), Vec::new())?.course;
+            let found = checks::clock(case, &track.course, &even);
+            track.note("clock", track.time(case), found);
         }
         if case.again {
             track.looked.push("same again");
@@ -135,6 +142,14 @@ impl Track {
     }
 }
 
+/// The same case on an even clock, with a plan for each step.
+fn on_even_clock(case: &Case) -> Case {
+    let mut other = case.again();
+    (other.steps, other.back) = (case.steps.even(), None);
+    other.parameters.ik.sample_time = other.steps.sample_time;
+    other
+}
+
 /// The same case with the smallest rates.
 fn minimum_norm(case: &Case) -> Case {
     let mut other = case.again();
@@ -197,9 +212,9 @@ impl<'r, 'a> Run<'r, 'a> {
             self.time += size;
             self.track.steps += 1;
             self.look(checks, k + 1, size, unforeseen);
-            if self.track.ending.roll > UPSIDE_DOWN {
+            if self.track.course.roll > UPSIDE_DOWN {
                 self.track.tumbled = true;
-                self.track.ending.rate = f64::INFINITY;
+                self.track.course.last_rate = f64::INFINITY;
                 break;
             }
         }
@@ -265,7 +280,7 @@ impl<'r, 'a> Run<'r, 'a> {
         if self.traces {
             println!("{now}");
         }
-        self.track.ending.see(self.case, self.duration, &now);
+        self.track.course.see(self.case, self.duration, &now);
         self.track.statuses[seen.status_number().min(15)] += 1;
         for check in checks {
             let found = check.see(&now);

@@ -93,6 +93,11 @@ impl<'a> Seen<'a> {
         status_name(self.status_number())
     }
 
+    /// Whether the status says that the path is kept.
+    pub fn keeps_path(&self) -> bool {
+        self.status() == "ok" || self.status().starts_with("task_")
+    }
+
     /// The smallest singular value of the path's matrix \[m\].
     pub fn singular_value(&self) -> f64 {
         self.controller[self.places.singular_value]

@@ -1,5 +1,6 @@
-//! A path within a generous reach of the arm is met: where nothing was in its way during the whole run, or since the
-//! reference came to rest, the end effector ends within 1e-6 m of it (1e-4 m if it moves and the clock is not even).
+//! A path within a generous reach of the arm is met: where nothing was in its way during the whole run (no limit, no
+//! dependent rows), the end effector ends within 1e-6 m of it, 1e-4 m on a clock that is not even; and wherever it was
+//! before, it ends within 1e-6 m of a reference that has come to rest, unless narrow limits are in its way.
 
 use uam::controller::PATH_THRESHOLD;
 use uam::parameters::PathAxes;
@@ -60,10 +61,12 @@ impl<'a> Met<'a> {
         let joint = Vec2::new(x, y) + Turn::by(roll).apply(Vec2::new(mount.x, mount.y));
         let [x, y] = now.seen.reference();
         let distance = (Vec2::new(x, y) - joint).norm();
-        (self.near[0]..=self.near[1]).contains(&distance)
-            && roll.abs() < UPRIGHT
-            && now.seen.singular_value() > self.singular
-            && !["rate_limited", "path_limited"].contains(&now.seen.status())
+        let reachable = (self.near[0]..=self.near[1]).contains(&distance) && roll.abs() < UPRIGHT;
+        let limited = ["rate_limited", "path_limited"].contains(&now.seen.status());
+        if self.case.path.at_rest.is_finite() {
+            return reachable && !(limited && self.case.limits.are_narrow());
+        }
+        reachable && !limited && now.seen.singular_value() > self.singular
     }
 }
 

@@ -52,8 +52,7 @@ impl Check for Truth<'_> {
         }
         let unforeseen = std::mem::take(&mut self.unforeseen);
         let status = now.seen.status();
-        let keeps = status == "ok" || status.starts_with("task_");
-        let before = std::mem::replace(&mut self.kept, keeps.then_some(status));
+        let before = std::mem::replace(&mut self.kept, now.seen.keeps_path().then_some(status));
         let Some(status) = before else { return Ok(()) };
         let late = match now.seen.late_miss() {
             Some(late) => late,

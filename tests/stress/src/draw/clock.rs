@@ -63,6 +63,14 @@ pub struct Steps {
 }
 
 impl Steps {
+    /// Even ones that take as long, with a plan for each, as often as here.
+    pub fn even(&self) -> Self {
+        let step = if self.per_plan == Some(1) { self.step } else { self.sample_time };
+        let count = (self.steps.iter().map(|(_, size)| size).sum::<f64>() / step).ceil() as usize;
+        let steps = (0..count).map(|n| (n as f64 * step, step)).collect();
+        Self { clock: Clock::Even, step, steps, sample_time: step, per_plan: Some(1) }
+    }
+
     /// When the host begins \[s\].
     pub fn start(&self) -> f64 {
         self.steps[0].0
