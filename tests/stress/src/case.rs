@@ -33,6 +33,17 @@ pub struct Change {
     pub parameters: Parameters,
 }
 
+/// A way there and back.
+#[derive(Debug, Clone, Copy)]
+pub struct Back {
+    /// Before which step the states are saved.
+    pub step: usize,
+    /// After how many steps they are restored.
+    pub count: usize,
+    /// Whether they are bytes in between.
+    pub through_bytes: bool,
+}
+
 /// A random coupling.
 pub struct Case {
     /// What it follows from.
@@ -55,8 +66,8 @@ pub struct Case {
     pub steps: Steps,
     /// Parameters that change on the way.
     pub change: Option<Change>,
-    /// Before which step the states are saved, and after how many steps they are restored.
-    pub back: Option<(usize, usize)>,
+    /// How the units go back to a state.
+    pub back: Option<Back>,
     /// Whether all of it is run again.
     pub again: bool,
     /// Whether it is compared with a run on an even clock, if it is not on one.
@@ -83,7 +94,10 @@ impl Case {
         let path = draw::path::draw(draw, structure, &mut p, duration, rest);
         payload(draw, structure, &mut p, duration);
         let count = steps.steps.len();
-        let back = draw.percent(25).then(|| (draw.below(count - 60), 1 + draw.below(60)));
+        let back = draw.percent(25).then(|| {
+            let (step, there) = (draw.below(count - 60), 1 + draw.below(60));
+            Back { step, count: there, through_bytes: draw.percent(50) }
+        });
         let (again, compared) = (draw.percent(5), draw.percent(25));
         let change = if draw.percent(15) { change(draw, structure, &p, count) } else { None };
         Self {
@@ -180,7 +194,7 @@ impl Case {
         if let Some(Change { step, values, .. }) = &self.change {
             text += &format!("# before step {step}: {values:?}\n");
         }
-        if let Some((step, count)) = self.back {
+        if let Some(Back { step, count, .. }) = self.back {
             text += &format!("# before step {step} the states are saved; after {count} steps all goes back to there\n");
         }
         text + &scenario.write(Extent::Changes)

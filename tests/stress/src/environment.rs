@@ -52,3 +52,27 @@ impl Environment {
         calls()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::hint::black_box;
+
+    use super::*;
+
+    /// A third lies between two numbers that can be written.
+    #[test]
+    fn quotients_are_rounded_as_said_and_afterwards_as_before() {
+        let third = |of: f64| black_box(of) / black_box(3.0);
+        let [below, above] = [1.0 / 3.0, f64::from_bits((1.0_f64 / 3.0).to_bits() + 1)];
+        for environment in Environment::ALL {
+            let (plus, minus) = environment.of(|| (third(1.0), third(-1.0)));
+            let expected = match environment {
+                Environment::Usual | Environment::Truncating => (below, -below),
+                Environment::Down => (below, -above),
+                Environment::Up => (above, -below),
+            };
+            assert_eq!((plus, minus), expected, "{environment:?}");
+            assert_eq!((third(1.0), third(-1.0)), (below, -below), "after {environment:?}");
+        }
+    }
+}

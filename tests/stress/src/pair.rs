@@ -141,6 +141,27 @@ impl<'a> Instance<'a> {
         Ok(state)
     }
 
+    /// The same state, which was bytes in between.
+    pub fn through_bytes(&self, mut state: State) -> Result<State, String> {
+        let (functions, component) = (self.functions, self.component);
+        let mut size = 0;
+        let status = self.environment.of(|| unsafe { (functions.state_size)(component, state, &raw mut size) });
+        self.must("fmi2SerializedFMUstateSize", status)?;
+        let mut bytes = vec![0; size];
+        let mut copy = ptr::null_mut();
+        let [written, freed, read] = self.environment.of(|| unsafe {
+            [
+                (functions.serialize_state)(component, state, bytes.as_mut_ptr(), size),
+                (functions.free_state)(component, &raw mut state),
+                (functions.deserialize_state)(component, bytes.as_ptr(), size, &raw mut copy),
+            ]
+        });
+        self.must("fmi2SerializeFMUstate", written)?;
+        self.must("fmi2FreeFMUstate", freed)?;
+        self.must("fmi2DeSerializeFMUstate", read)?;
+        Ok(copy)
+    }
+
     /// Goes back to a state, and gives that up.
     pub fn restore(&self, mut state: State) -> Result<(), String> {
         let [set, freed] = self.environment.of(|| unsafe {

@@ -9,7 +9,7 @@ use uam::interface::plant::PlantUnit;
 use uam::parameters::{Hold, PathAxes, Resolution};
 use uam::planar::Vec2;
 
-use crate::case::Case;
+use crate::case::{Back, Case};
 use crate::checks::{self, Check, Now};
 use crate::course::Course;
 use crate::environment::Environment;
@@ -200,12 +200,13 @@ impl<'r, 'a> Run<'r, 'a> {
         self.look(checks, 0, 0.0, 0.0);
         let mut expected = None;
         for k in 0..self.case.steps.steps.len() {
-            if let Some((at, count)) = self.case.back {
-                if k == at {
-                    expected = Some(self.there_and_back(at, count)?);
+            if let Some(back) = self.case.back {
+                if k == back.step {
+                    expected = Some(self.there_and_back(back)?);
                 }
-                if k == at + count && expected.is_some_and(|digest: u64| digest != self.shown()) {
-                    self.track.note(BACK, self.time, Err(format!("other bits {count} steps after time of return")));
+                if k == back.step + back.count && expected.is_some_and(|digest| digest != self.shown()) {
+                    let found = format!("other bits {} steps after the return", back.count);
+                    self.track.note(BACK, self.time, Err(found));
                 }
             }
             let (size, unforeseen) = self.step(k)?;
@@ -248,16 +249,19 @@ impl<'r, 'a> Run<'r, 'a> {
         Ok((size, self.unforeseen.iter().sum()))
     }
 
-    /// Goes on from step `at` by `count` steps, and back; what it showed there.
-    fn there_and_back(&mut self, at: usize, count: usize) -> Result<u64, String> {
-        let states = [self.pair.controller.save()?, self.pair.plant.save()?];
+    /// Goes on by some steps, and back; what it showed there.
+    fn there_and_back(&mut self, Back { step, count, through_bytes }: Back) -> Result<u64, String> {
+        let mut states = [self.pair.controller.save()?, self.pair.plant.save()?];
         let (time, unforeseen) = (self.time, self.unforeseen);
-        let went = (at..at + count).try_for_each(|k| {
+        let went = (step..step + count).try_for_each(|k| {
             let (size, _) = self.step(k)?;
             self.time += size;
             Ok::<_, String>(())
         });
         let shown = self.shown();
+        if through_bytes {
+            states = [self.pair.controller.through_bytes(states[0])?, self.pair.plant.through_bytes(states[1])?];
+        }
         self.pair.controller.restore(states[0])?;
         self.pair.plant.restore(states[1])?;
         (self.time, self.unforeseen) = (time, unforeseen);
