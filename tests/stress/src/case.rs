@@ -98,7 +98,7 @@ impl Case {
             let (step, there) = (draw.below(count - 60), 1 + draw.below(60));
             Back { step, count: there, through_bytes: draw.percent(50) }
         });
-        let (again, compared) = (draw.percent(5), draw.percent(25));
+        let (again, compared) = (draw.percent(5), draw.percent(15));
         let change = if draw.percent(15) { change(draw, structure, &p, count) } else { None };
         Self {
             seed,
