@@ -1,5 +1,6 @@
 //! Where the status says that the path is kept (`ok`, `task_*`), the prediction at the end of the planned interval is on
-//! the reference to 1e-6 m, and beyond that only as far as `ik.late_miss` says afterwards, on a clock that is not even.
+//! the reference to 1e-6 m; where the interval took longer or shorter than planned, beyond that only as far as
+//! `ik.late_miss` says afterwards.
 
 use uam::parameters::PathAxes;
 
@@ -24,18 +25,19 @@ impl<'a> Truth<'a> {
         Self { case, kept: None, unforeseen: 0.0, looked: false }
     }
 
-    /// Whether the interval that ends now took as long as it was planned for.
-    fn as_planned(&self, now: &Now<'_>, per_plan: usize) -> bool {
+    /// Whether other laws hold since the plan of the interval that ends now: what was planned is not what happens.
+    fn has_other_laws(&self, now: &Now<'_>, per_plan: usize) -> bool {
+        let interval = now.count - per_plan..now.count;
+        self.case.change.as_ref().is_some_and(|change| change.of_laws && interval.contains(&change.step))
+    }
+
+    /// Whether the interval that ends now took as long as it was planned for, and the payload did not come within.
+    fn is_as_planned(&self, now: &Now<'_>, per_plan: usize) -> bool {
         let steps = &self.case.steps;
-        let known =
-            steps.clock == Clock::Even && (now.count > per_plan || steps.sample_time == per_plan as f64 * steps.step);
-        // What was planned by other laws, or without the payload, is not what happens.
-        let begun = now.count - per_plan;
-        let change = self.case.change.as_ref();
-        let changed = change.is_some_and(|change| change.of_laws && (begun..now.count).contains(&change.step));
+        let length = per_plan as f64 * steps.step;
         let grasp = self.case.parameters.payload.grasp_time;
-        let grasped = (now.time - per_plan as f64 * steps.step < grasp) && grasp < now.time;
-        known && !changed && !(grasped && per_plan > 1)
+        let grasped = per_plan > 1 && now.time - length < grasp && grasp < now.time;
+        steps.clock == Clock::Even && (now.count > per_plan || steps.sample_time == length) && !grasped
     }
 }
 
@@ -54,9 +56,12 @@ impl Check for Truth<'_> {
         let status = now.seen.status();
         let before = std::mem::replace(&mut self.kept, now.seen.keeps_path().then_some(status));
         let Some(status) = before else { return Ok(()) };
+        if self.has_other_laws(now, per_plan) {
+            return Ok(());
+        }
         let late = match now.seen.late_miss() {
-            Some(late) => late,
-            None if self.as_planned(now, per_plan) => 0.0,
+            _ if self.is_as_planned(now, per_plan) => 0.0,
+            Some(late) => late.abs(),
             None => return Ok(()),
         };
         self.looked = true;
