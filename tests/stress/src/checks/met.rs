@@ -1,6 +1,7 @@
 //! A path within a generous reach of the arm is met: where nothing was in its way during the whole run (no limit, no
-//! dependent rows), the end effector ends within 1e-6 m of it, 1e-4 m on a clock that is not even; and wherever it was
-//! before, it ends within 1e-6 m of a reference that has come to rest, unless narrow limits are in its way.
+//! dependent rows), the end effector is within 1e-6 m of it at the end of the last plan, 1e-4 m on a clock that is not
+//! even; and wherever it was before, it ends within 1e-6 m of a reference that has come to rest, unless narrow limits are
+//! in its way.
 
 use uam::controller::PATH_THRESHOLD;
 use uam::parameters::PathAxes;
@@ -83,8 +84,14 @@ impl Check for Met<'_> {
         // An interval that is too long for its motion says so.
         let inexact = !rests && now.seen.status() == "inexact";
         self.free &= !inexact && self.is_free(now);
+        let steps = &self.case.steps;
+        // Between plans the end effector is near the path.
+        if !now.count.is_multiple_of(steps.per_plan.unwrap_or(1)) {
+            return Ok(());
+        }
         let [x, y] = now.seen.miss();
-        let uneven = if rests || self.case.steps.clock == Clock::Even { 0.0 } else { 1e-4 };
+        let exact = steps.clock == Clock::Even || (rests && steps.per_plan.is_some());
+        let uneven = if exact { 0.0 } else { 1e-4 };
         self.off = [(x * x + y * y).sqrt(), 1e-6 + uneven + now.unforeseen];
         Ok(())
     }
