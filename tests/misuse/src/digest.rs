@@ -15,6 +15,12 @@ impl Digest {
         }
     }
 
+    /// Takes a number in, all of its bits at once.
+    #[inline]
+    pub fn take_number(&mut self, number: f64) {
+        self.0 = (self.0 ^ number.to_bits()).wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(29);
+    }
+
     /// As a number.
     pub fn value(self) -> u64 {
         self.0

@@ -20,8 +20,11 @@ pub const ERROR: c_int = 3;
 /// `fmi2CallbackFunctions`. The logger is variadic in C; see [`crate::host`].
 #[repr(C)]
 pub struct Callbacks {
+    /// Takes messages.
     pub logger: *const c_void,
+    /// Allocation, release, and the end of a step.
     pub memory_and_step: [*const c_void; 3],
+    /// Handed back to all of them.
     pub environment: *mut c_void,
 }
 
@@ -43,12 +46,15 @@ macro_rules! functions {
     ($($field:ident = $symbol:literal($($argument:ty),*) $(-> $result:ty)?;)+) => {
         /// The functions of one library.
         pub struct Functions {
-            $(pub $field: unsafe extern "C" fn($($argument),*) $(-> $result)?,)+
+            $(#[doc = concat!("`", stringify!($symbol), "`")] pub $field: unsafe extern "C" fn($($argument),*) $(-> $result)?,)+
             _library: Library,
         }
 
         impl Functions {
             /// Loads a library and looks all functions up.
+            ///
+            /// # Errors
+            /// If it cannot be loaded, or a function is missing.
             pub fn load(path: &Path) -> Result<Self, libloading::Error> {
                 let library = open(path)?;
                 Ok(Self {

@@ -10,12 +10,8 @@ use std::time::Instant;
 
 use clap::{ArgGroup, Parser};
 
-mod crowd;
-mod digest;
 mod forgery;
-mod functions;
 mod guest;
-mod host;
 mod hostile;
 mod lifetimes;
 mod outputs;
@@ -23,10 +19,9 @@ mod player;
 mod reference;
 mod sequence;
 mod starts;
-mod unit;
-mod watch;
 
 use guest::{Fate, Guest};
+use misuse::{crowd, digest, functions, host, unit, watch};
 use sequence::Outcome;
 use unit::Unit;
 

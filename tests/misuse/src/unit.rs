@@ -16,17 +16,25 @@ use crate::functions::Functions;
 
 /// What the model description says of a variable.
 pub struct Variable {
+    /// Value reference.
     pub reference: u32,
+    /// Whether it is an output.
     pub output: bool,
+    /// Whether it is of type Real.
     pub real: bool,
+    /// Name.
     pub name: String,
 }
 
 /// An unpacked and loaded FMU.
 pub struct Unit {
+    /// Model identifier.
     pub name: String,
+    /// Identity of the unit that the file describes.
     pub guid: CString,
+    /// Its variables.
     pub variables: Vec<Variable>,
+    /// The functions of its library, which serves every structure.
     pub functions: Functions,
     /// Stays as long as the library is loaded.
     _folder: tempfile::TempDir,
@@ -61,6 +69,9 @@ impl Variable {
 
 impl Unit {
     /// Opens a .fmu file. Its library is loaded with global symbols.
+    ///
+    /// # Errors
+    /// If it is no FMU for this machine.
     pub fn open(path: &Path) -> Result<Self, Box<dyn Error>> {
         let folder = tempfile::tempdir()?;
         zip::ZipArchive::new(File::open(path)?)?.extract(folder.path())?;
