@@ -135,6 +135,11 @@ pub struct BuildArguments {
     /// Names like joint_1_rate_command instead of joint[1].rate_command, for hosts that make buses of the latter
     #[arg(long)]
     pub flat: bool,
+    /// Say in terminalsAndIcons.xml which variables belong together, for hosts that connect them by one line
+    ///
+    /// FMI Library 3.0.4, and with it PyFMI, complains of such a file in units of FMI 2.0, and goes on without it.
+    #[arg(long)]
+    pub terminals: bool,
     /// Platforms that the FMUs are for, separated by commas [default: this machine]
     ///
     /// linux64 runs with the C library of 2012 and later; darwin64 holds both processors. Binaries for aarch64-linux
