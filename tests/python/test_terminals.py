@@ -28,7 +28,7 @@ def members(fmu: Path) -> dict[str, str]:
 
 
 def fmi_library_complains(fmu: Path) -> bool:
-    """The rule of FMI Library 3.0.4: the file, if it is there, has the model description's version."""
+    """The rule of FMI Library 3.0.4: the file, if any, has the model description's version."""
     with zipfile.ZipFile(fmu) as archive:
         if "terminalsAndIcons/terminalsAndIcons.xml" not in archive.namelist():
             return False

@@ -8,9 +8,9 @@ use fmu_build::study;
 use uam::scenarios::catalogue;
 
 use super::{Pairs, Progress, complain};
-use crate::cli::ThesisArguments;
+use crate::cli::PrintArguments;
 
-pub fn execute(arguments: &ThesisArguments, out: &Path) -> Result<()> {
+pub fn execute(arguments: &PrintArguments, out: &Path) -> Result<()> {
     let scenarios = catalogue()?;
     let pairs = Pairs::build(out, scenarios.iter().map(|scenario| scenario.structure))?;
     let progress = Progress::of(&scenarios, "Simulating")?;
@@ -22,7 +22,7 @@ pub fn execute(arguments: &ThesisArguments, out: &Path) -> Result<()> {
 
     let table = study::table(&summaries);
     if arguments.markdown {
-        print!("{}", table.markdown());
+        print!("{}", table.markdown_with_remarks());
         return Ok(());
     }
     let (statements, agreeing) = table.agreement();
