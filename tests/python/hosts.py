@@ -174,6 +174,7 @@ class Agreement:
         if not any(self.difference.values()):
             return "bit by bit"
         apart = ", ".join(f"{value:.1e} {unit}" for unit, value in self.difference.items())
+        apart = apart.replace("e-0", "e-")
         return f"{int(min(self.digits.values()))} digits ({apart})"
 
 
