@@ -14,7 +14,8 @@ pub struct Item {
 
 /// A value out of a closed set of named alternatives, numbered from 1.
 pub trait Choice {
-    /// Name of the type in model descriptions, for instance `Resolution`.
+    /// Name of the type in model descriptions, for instance `UamResolution`: some hosts keep the types of all units in
+    /// one name space.
     fn type_name(&self) -> &'static str;
     /// What the type decides, one sentence.
     fn type_description(&self) -> &'static str;
@@ -44,7 +45,7 @@ macro_rules! options {
         pub enum $type { $(#[doc = $description] $variant,)+ }
 
         impl $crate::options::Choice for $type {
-            fn type_name(&self) -> &'static str { stringify!($type) }
+            fn type_name(&self) -> &'static str { concat!("Uam", stringify!($type)) }
             fn type_description(&self) -> &'static str { $about.trim_ascii() }
             fn items(&self) -> &'static [$crate::options::Item] {
                 const ITEMS: &[$crate::options::Item] =

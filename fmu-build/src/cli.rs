@@ -60,7 +60,7 @@ pub enum Command {
     /// Run every simulation of the thesis and print what it says beside what comes out
     ///
     /// Each runs with both discretizations. Builds the FMUs that this needs.
-    Thesis(ThesisArguments),
+    Thesis(PrintArguments),
     /// Run a simulation with some numbers changed, and print what depends on them
     ///
     /// One column for the simulation as it is, and one for each value. Several names take their values together: the
@@ -77,7 +77,7 @@ pub enum Command {
     /// Runs the pick-up with steps from 0.1 ms to 50 ms, both discretizations and holds, three orders in which a
     /// master may step the units, and autopilots that are continuous or sampled. Prints the largest errors of the end
     /// effector and of the predicted base with the observed orders, and writes budget.html with figures.
-    Budget,
+    Budget(PrintArguments),
     /// List the simulations that `simulate` knows, one per line
     List,
     /// Print a simulation as a TOML file, to be changed and given to `simulate`
@@ -135,6 +135,11 @@ pub struct BuildArguments {
     /// Names like joint_1_rate_command instead of joint[1].rate_command, for hosts that make buses of the latter
     #[arg(long)]
     pub flat: bool,
+    /// Say in terminalsAndIcons.xml which variables belong together, for hosts that connect them by one line
+    ///
+    /// FMI Library 3.0.4, and with it PyFMI, complains of such a file in units of FMI 2.0, and goes on without it.
+    #[arg(long)]
+    pub terminals: bool,
     /// Platforms that the FMUs are for, separated by commas [default: this machine]
     ///
     /// linux64 runs with the C library of 2012 and later; darwin64 holds both processors. Binaries for aarch64-linux
@@ -187,10 +192,10 @@ pub struct SimulateArguments {
     pub all_outputs: bool,
 }
 
-/// How to print the statements of the thesis.
+/// How to print what came out.
 #[derive(Debug, Args)]
-pub struct ThesisArguments {
-    /// Print the table in Markdown, as it stands in the README
+pub struct PrintArguments {
+    /// Print the table in Markdown, as it stands in the documents of this project
     #[arg(long)]
     pub markdown: bool,
 }
@@ -209,6 +214,9 @@ pub struct VaryArguments {
     /// Print every quantity, not only those about which the thesis says something
     #[arg(long)]
     pub all: bool,
+    /// How to print what came out
+    #[command(flatten)]
+    pub print: PrintArguments,
 }
 
 /// What to change in the motions.
@@ -217,6 +225,9 @@ pub struct ReachArguments {
     /// A name and its value, as in `vary`, for instance joint[*].acceleration_limit=20
     #[arg(value_name = "NAME=VALUE", value_parser = change)]
     pub changes: Vec<Change>,
+    /// How to print what came out
+    #[command(flatten)]
+    pub print: PrintArguments,
 }
 
 /// A name and the values that it takes one after the other.

@@ -34,7 +34,7 @@ pub fn execute(arguments: &Arguments) -> Result<()> {
         Some(Command::Thesis(arguments)) => thesis::execute(arguments, out),
         Some(Command::Vary(arguments)) => vary::execute(arguments, out),
         Some(Command::Reach(arguments)) => reach::execute(arguments, out),
-        Some(Command::Budget) => budget::execute(out),
+        Some(Command::Budget(arguments)) => budget::execute(arguments, out),
         Some(Command::List) => {
             for scenario in scenarios::catalogue()? {
                 println!("{:<24} {}", scenario.id, scenario.title);

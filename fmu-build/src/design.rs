@@ -18,6 +18,8 @@ pub struct Design {
     pub parameters: Parameters,
     /// What importers propose to simulate.
     pub experiment: Experiment,
+    /// Whether the FMUs say which variables belong together, see [`crate::terminals`].
+    pub terminals: bool,
 }
 
 /// When a simulation ends, and how long its steps are.
@@ -41,6 +43,7 @@ impl From<Structure> for Design {
             naming: Naming::Structured,
             parameters: scenarios::default_parameters(structure),
             experiment: Experiment::PICK_UP,
+            terminals: false,
         }
     }
 }
@@ -49,7 +52,7 @@ impl From<Scenario> for Design {
     fn from(scenario: Scenario) -> Self {
         let Scenario { structure, parameters, duration, step, .. } = scenario;
         let experiment = Experiment { stop_time: duration, step_size: step };
-        Self { structure, naming: Naming::Structured, parameters, experiment }
+        Self { structure, naming: Naming::Structured, parameters, experiment, terminals: false }
     }
 }
 

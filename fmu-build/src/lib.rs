@@ -22,6 +22,7 @@ mod files;
 pub mod fmu;
 mod html;
 pub mod interface;
+mod markdown;
 pub mod metadata;
 pub mod package;
 pub mod platform;

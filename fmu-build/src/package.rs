@@ -36,8 +36,10 @@ pub fn fmu(unit: &Unit, libraries: &[(Platform, Vec<u8>)]) -> Result<Archive> {
         archive.add(format!("documentation/licenses/{name}"), text);
     }
     archive.add("model.png", unit.icon);
-    archive.add(format!("{}/terminalsAndIcons.xml", terminals::FOLDER), terminals::terminals_and_icons(unit)?);
-    archive.add(format!("{}/icon.png", terminals::FOLDER), unit.icon);
+    if let Some(members) = &unit.terminal {
+        archive.add(format!("{}/terminalsAndIcons.xml", terminals::FOLDER), terminals::terminals_and_icons(members)?);
+        archive.add(format!("{}/icon.png", terminals::FOLDER), unit.icon);
+    }
     if let Some(text) = &unit.interface.start_file {
         archive.add(format!("resources/{}", start_file::NAME), text.as_str());
     }

@@ -29,6 +29,8 @@ pub const AGREEMENT: f64 = 0.15;
 pub struct Motion {
     /// The scenario.
     pub scenario: &'static str,
+    /// What is moved, and how.
+    pub about: &'static str,
     /// How far the thesis gets \[m\].
     pub thesis: f64,
     /// The same in words.
@@ -37,10 +39,10 @@ pub struct Motion {
 
 /// The motions of thesis 3.8 and 4.4, with the counterweight locked and moving.
 pub const MOTIONS: [Motion; 4] = [
-    Motion { scenario: "3.8a", thesis: 0.13, says: "130 mm" },
-    Motion { scenario: "3.8b", thesis: 0.24, says: "240 mm" },
-    Motion { scenario: "4.4a", thesis: 0.11, says: "110 mm" },
-    Motion { scenario: "4.4b", thesis: 0.125, says: "125 mm" },
+    Motion { scenario: "3.8a", about: "counterweight locked", thesis: 0.13, says: "130 mm" },
+    Motion { scenario: "3.8b", about: "counterweight moving", thesis: 0.24, says: "240 mm" },
+    Motion { scenario: "4.4a", about: "payload, counterweight locked", thesis: 0.11, says: "110 mm" },
+    Motion { scenario: "4.4b", about: "payload, counterweight moving", thesis: 0.125, says: "125 mm" },
 ];
 
 /// A motion of one size.

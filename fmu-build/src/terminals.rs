@@ -1,12 +1,13 @@
 //! `terminalsAndIcons/terminalsAndIcons.xml`: which variables belong together, so that importers connect both units by
 //! one line.
 //!
-//! FMI 2.0 does not know this file; it is that of FMI 3.0, which importers of FMI 2.0 read or pass over.
+//! FMI 2.0.4 takes this file over from FMI 3.0, whose schema wants `fmiVersion` to be 3.0. FMI Library 3.0.4 (PyFMI,
+//! for instance) wants there what `modelDescription.xml` has, 2.0, and otherwise says that the unit is damaged, in two
+//! lines of the level "fatal", before it goes on. No file pleases both: so there is one only where it is asked for.
 
 use std::io;
 
 use crate::error::Result;
-use crate::units::Unit;
 use crate::xml::{self, Ending, Xml};
 
 /// Folder of the file and the icon inside the FMU.
@@ -16,11 +17,11 @@ pub const FOLDER: &str = "terminalsAndIcons";
 const CORNERS: [(&str, &str); 4] = [("x1", "-100"), ("y1", "-100"), ("x2", "100"), ("y2", "100")];
 const SCALE: (&str, &str) = ("suggestedScalingFactorTo_mm", "0.1");
 
-/// The terminal with which the unit is plugged to the other one.
+/// The terminal with which the unit is plugged to the other one, with its `members`.
 ///
 /// # Errors
 /// If the document cannot be put together.
-pub fn terminals_and_icons(unit: &Unit) -> Result<String> {
+pub fn terminals_and_icons(members: &[String]) -> Result<String> {
     xml::document("terminalsAndIcons.xml", |xml| {
         xml.create_element("fmiTerminalsAndIcons").with_attribute(("fmiVersion", "3.0")).holding(|xml| {
             xml.create_element("GraphicalRepresentation").holding(|xml| {
@@ -32,7 +33,7 @@ pub fn terminals_and_icons(unit: &Unit) -> Result<String> {
                     .with_attribute(("name", "commands"))
                     .with_attribute(("matchingRule", "plug"))
                     .with_attribute(("description", "From the controller to what moves the arm"))
-                    .holding(|xml| unit.commands.iter().try_for_each(|name| write_member(xml, name)))
+                    .holding(|xml| members.iter().try_for_each(|name| write_member(xml, name)))
             })
         })
     })

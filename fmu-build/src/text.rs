@@ -12,6 +12,8 @@ const CONVENTIONS: &str = include_str!("text/conventions.md");
 const COUNTERWEIGHT: &str = include_str!("text/counterweight.md");
 const COUNTERWEIGHT_LAW: &str = include_str!("text/counterweight_law.md");
 const ELEMENT: &str = include_str!("text/balance_element.md");
+/// The table that `budget --markdown` prints; it is written by `tests/python/test_documents.py`.
+const WHICH_STEP: &str = include_str!("text/which_step.md");
 const ELEMENT_LAW: &str = include_str!("text/balance_element_law.md");
 
 /// Where the conventions go.
@@ -20,6 +22,8 @@ const PLACE_OF_CONVENTIONS: &str = "<!-- conventions -->";
 const PLACE_OF_BALANCE: &str = "<!-- balance -->";
 /// Where it goes that says how the controller moves that.
 const PLACE_OF_LAW: &str = "<!-- law of the balance -->";
+/// Where the errors go that a communication step leaves.
+const PLACE_OF_STEPS: &str = "<!-- which step -->";
 
 /// A unit's text with what both have in common, and with what belongs to its structure.
 #[must_use]
@@ -29,7 +33,12 @@ pub fn complete(text: &str, structure: Structure) -> String {
         Balance::Counterweight => (COUNTERWEIGHT, COUNTERWEIGHT_LAW),
         Balance::Element => (ELEMENT, ELEMENT_LAW),
     };
-    let parts = [(PLACE_OF_CONVENTIONS, CONVENTIONS), (PLACE_OF_BALANCE, body), (PLACE_OF_LAW, law)];
+    let parts = [
+        (PLACE_OF_CONVENTIONS, CONVENTIONS),
+        (PLACE_OF_BALANCE, body),
+        (PLACE_OF_LAW, law),
+        (PLACE_OF_STEPS, WHICH_STEP),
+    ];
     parts.into_iter().fold(text.to_owned(), |text, (place, part)| text.replace(place, part))
 }
 

@@ -14,8 +14,8 @@ pub struct Unit {
     pub structure: Structure,
     /// Variables and identity.
     pub interface: Interface,
-    /// What goes from the controller to the plant.
-    pub commands: Vec<String>,
+    /// What goes from the controller to the plant, if the FMU is to say that it belongs together.
+    pub terminal: Option<Vec<String>>,
     /// Picture, as PNG.
     pub icon: &'static [u8],
     /// What users should know beside the variables, in Markdown.
@@ -28,11 +28,12 @@ impl Unit {
     pub fn pair(design: impl Into<Design>) -> [Self; 2] {
         let design = design.into();
         let (controller, plant) = (Interface::of::<ControllerUnit>(&design), Interface::of::<PlantUnit>(&design));
-        let commands: Vec<String> = controller.outputs_for(&plant).map(|output| output.name.clone()).collect();
+        let commands = || controller.outputs_for(&plant).map(|output| output.name.clone()).collect();
+        let terminal: Option<Vec<String>> = design.terminals.then(commands);
         let unit = |interface, icon, text| Self {
             structure: design.structure,
             interface,
-            commands: commands.clone(),
+            terminal: terminal.clone(),
             icon,
             text,
         };

@@ -142,6 +142,28 @@ fn units_and_types_are_defined_and_used() {
     });
 }
 
+/// Some hosts keep the types of all units in one name space, each as a class of its own.
+#[test]
+fn types_have_names_of_our_own_which_mean_the_same_in_both_units() {
+    let mut meanings: BTreeMap<String, Vec<(i32, String)>> = BTreeMap::new();
+    for structure in Structure::all() {
+        for unit in Unit::pair(structure) {
+            let text = model_description(&unit.interface).unwrap();
+            let document = Document::parse(&text).unwrap();
+            for simple in document.descendants().filter(|node| node.has_tag_name("SimpleType")) {
+                let name = attribute(simple, "name");
+                assert!(name.strip_prefix("Uam").is_some_and(|rest| rest.starts_with(char::is_uppercase)), "{name}");
+                let items = simple.descendants().filter(|node| node.has_tag_name("Item"));
+                let number = |item: Node<'_, '_>| attribute(item, "value").parse::<i32>().unwrap();
+                let items: Vec<_> = items.map(|item| (number(item), attribute(item, "name").to_owned())).collect();
+                assert!(!items.is_empty(), "{name}");
+                assert_eq!(meanings.entry(name.to_owned()).or_insert_with(|| items.clone()), &items, "{name}");
+            }
+        }
+    }
+    assert!(meanings.len() > 8, "{meanings:?}");
+}
+
 #[test]
 fn no_output_depends_on_an_input_and_initial_unknowns_depend_on_parameters() {
     for_every_unit(|interface, root| {

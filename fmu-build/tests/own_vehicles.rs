@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests may fail like tests")]
 
+use std::ffi::{CStr, CString, c_char, c_double, c_int, c_uint, c_void};
 use std::fs::{self, File};
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -111,6 +112,78 @@ fn a_unit_whose_file_was_changed_is_refused_with_both_identities() {
     assert!(message.contains("uav.mass must be the bits of a finite number, above 0, but is 0xc"), "{message}");
     let message = changed(None);
     assert!(message.contains("start.toml cannot be read") && message.contains(&unit.interface.guid), "{message}");
+    let places = message.split("; ").filter(|part| part.contains("start.toml cannot be read")).count();
+    assert!(places == 2 && message.contains("fmuResourceLocation") && message.contains("uam_plant"), "{message}");
+}
+
+type Instantiate = unsafe extern "C" fn(
+    *const c_char,
+    c_int,
+    *const c_char,
+    *const c_char,
+    *const c_void,
+    c_int,
+    c_int,
+) -> *mut c_void;
+type GetReal = unsafe extern "C" fn(*mut c_void, *const c_uint, usize, *mut c_double) -> c_int;
+
+/// What a library says the mass of the UAV is, if a host that gives this as the place of the resources gets an
+/// instance of the plant.
+fn mass(library: &Path, resources: Option<&CStr>) -> Option<f64> {
+    let interface = Unit::plant(design()).interface;
+    let reference = interface.variables.iter().position(|variable| variable.name == "uav.mass").unwrap();
+    let (guid, reference) = (CString::new(interface.guid).unwrap(), c_uint::try_from(reference).unwrap());
+    let resources = resources.map_or(std::ptr::null(), CStr::as_ptr);
+    // SAFETY: the library is a unit by FMI 2.0, which fixes the signature of every function; all texts outlive the
+    // calls, and there is a place for the number.
+    unsafe {
+        let library = libloading::Library::new(library).unwrap();
+        let instantiate = library.get::<Instantiate>("fmi2Instantiate").unwrap();
+        let unit = instantiate(c"unit".as_ptr(), 1, guid.as_ptr(), resources, std::ptr::null(), 0, 0);
+        if unit.is_null() {
+            return None;
+        }
+        let mut value = f64::NAN;
+        library.get::<GetReal>("fmi2GetReal").unwrap()(unit, &raw const reference, 1, &raw mut value);
+        library.get::<unsafe extern "C" fn(*mut c_void)>("fmi2FreeInstance").unwrap()(unit);
+        Some(value)
+    }
+}
+
+/// Hosts leave the place of the resources out, or give that of another unit; they have loaded the library, though.
+#[test]
+fn a_host_need_not_know_where_the_resources_are() {
+    let own = built(design(), "own vehicle in a host that knows little");
+    let unpacked = |design: Option<&str>| {
+        let folder = tempfile::tempdir().unwrap();
+        ZipArchive::new(File::open(&own.plant).unwrap()).unwrap().extract(folder.path()).unwrap();
+        if let Some(text) = design {
+            fs::write(folder.path().join("resources/start.toml"), text).unwrap();
+        }
+        folder
+    };
+    let mut heavier = design();
+    heavier.parameters.uav.mass = 40.0;
+    let heavier = Unit::plant(heavier).interface.start_file.unwrap();
+    let (here, other) = (unpacked(None), unpacked(Some(&heavier)));
+    let name = Platform::of_this_machine().unwrap().library("uam_plant");
+    let (here_library, other_library) = (here.path().join(&name), other.path().join(&name));
+    let location = |folder: &Path| CString::new(format!("file://{}/resources", folder.display())).unwrap();
+
+    let expected = Some(4.0 + 1.0 / 3.0);
+    assert_eq!(mass(&here_library, Some(&location(here.path()))), expected);
+    assert_eq!(mass(&here_library, None), expected, "NULL");
+    for wrong in [c"", c" ", c"file:///none/there", c"/", c"http://example.org/resources", c"nonsense", c"\xff"] {
+        assert_eq!(mass(&here_library, Some(wrong)), expected, "{wrong:?}");
+    }
+    assert_eq!(mass(&here_library, Some(&location(other.path()))), expected, "the resources of another unit");
+    // The URI goes first: there may be a library elsewhere.
+    assert_eq!(mass(&other_library, Some(&location(here.path()))), expected);
+
+    // Believed is only what gives the GUID.
+    assert_eq!(mass(&other_library, None), None);
+    fs::remove_file(here.path().join("resources/start.toml")).unwrap();
+    assert_eq!(mass(&here_library, None), None);
 }
 
 #[test]

@@ -5,6 +5,7 @@
 use std::collections::HashSet;
 use std::io::{Cursor, Read};
 
+use fmu_build::Design;
 use fmu_build::documentation::page;
 use fmu_build::package::fmu;
 use fmu_build::platform::{AARCH64_LINUX, DARWIN64, LINUX64, Platform, WIN64};
@@ -62,8 +63,6 @@ fn an_fmu_holds_what_the_standard_names() {
             "documentation/licenses/THIRD-PARTY",
             "model.png",
             "modelDescription.xml",
-            "terminalsAndIcons/icon.png",
-            "terminalsAndIcons/terminalsAndIcons.xml",
         ]
     );
     assert_eq!(entry(&archive, "binaries/linux64/uam_plant.so"), b"library");
@@ -110,6 +109,54 @@ fn the_page_shows_every_variable_and_every_alternative() {
             for item in unit.interface.enumerations().iter().flat_map(|enumeration| enumeration.items) {
                 assert!(html.contains(&format!("<code>{}</code>", item.name)), "{}", item.name);
             }
+        }
+    }
+}
+
+/// Many hosts know the values of enumerations by their numbers alone.
+#[test]
+fn the_row_of_a_variable_says_which_numbers_stand_for_which_names() {
+    for structure in Structure::all() {
+        for unit in Unit::pair(structure) {
+            let html = page(&unit);
+            for variable in &unit.interface.variables {
+                let fmu_build::interface::Value::Enumeration { options, start } = variable.value else { continue };
+                let name = format!("<td><code>{}</code></td>", variable.name);
+                let row = html.split("<tr>").find(|row| row.starts_with(&name)).unwrap();
+                for (number, item) in (1..).zip(options.items) {
+                    let times = if variable.is_set_from_outside() && number == start { 2 } else { 1 };
+                    let found = row.matches(&format!("{number} = {}", item.name)).count();
+                    assert_eq!(found, times, "{}, {}", variable.name, item.name);
+                }
+            }
+        }
+    }
+}
+
+/// Hosts that go by the standard stop where the simulation ends.
+#[test]
+fn the_system_proposes_the_experiment_of_its_simulation() {
+    for (id, start, stop) in [("4.3b", "0", "30"), ("2.5a", "0", "8"), ("3.8a", "0", "5")] {
+        let scenario = uam::scenarios::find(id).unwrap();
+        assert_eq!(scenario.duration.to_string(), stop, "{id}");
+        let [controller, plant] = Unit::pair(Design::from(scenario));
+        let ssd = text(&pack_system(&plant, &controller), "SystemStructure.ssd");
+        let document = Document::parse(&ssd).unwrap();
+        let experiments: Vec<_> =
+            document.root_element().children().filter(|node| node.tag_name().name() == "DefaultExperiment").collect();
+        let [experiment] = experiments[..] else { panic!("{id}: {experiments:?}") };
+        assert_eq!(experiment.tag_name().namespace(), document.root_element().tag_name().namespace());
+        assert_eq!((experiment.attribute("startTime"), experiment.attribute("stopTime")), (Some(start), Some(stop)));
+    }
+}
+
+/// The file is that of FMI 3.0: its schema wants `fmiVersion` 3, and FMI Library the version of the model description.
+#[test]
+fn terminals_are_there_only_where_they_are_asked_for() {
+    for (terminals, expected) in [(false, 0), (true, 2)] {
+        for unit in Unit::pair(Design { terminals, ..Structure::DEFAULT.into() }) {
+            let files = names(&pack(&unit)).into_iter().filter(|name| name.starts_with("terminalsAndIcons/"));
+            assert_eq!(files.count(), expected, "{terminals}");
         }
     }
 }

@@ -14,12 +14,13 @@ use fmu_build::cross::{TARGETS, Target, Toolchain};
 use fmu_build::fmu::{Fmu, Value};
 use fmu_build::platform::DARWIN64;
 use fmu_build::units::Unit;
-use fmu_build::{BuildOptions, Built, build};
+use fmu_build::{BuildOptions, Built, Design, build};
 use object::macho::{CPU_TYPE_ARM64, DylibCommand, LC_CODE_SIGNATURE, LC_ID_DYLIB, MachHeader64};
 use object::read::macho::{FatArch, MachHeader, MachOFatFile32};
 use object::read::{NameOrOrdinal, Object};
 use object::{Architecture, Endianness};
 use uam::Structure;
+use uam::fmi2::start_file;
 use zip::ZipArchive;
 
 /// Largest admissible library for one processor \[B\].
@@ -50,10 +51,16 @@ fn wanted(target: &Target) -> bool {
     missing.is_empty()
 }
 
+/// A vehicle with a start value of its own: its units need their resources.
+fn design() -> Design {
+    let mut design = Design::from(Structure::DEFAULT);
+    design.parameters.uav.mass = 4.0 + 1.0 / 3.0;
+    design
+}
+
 fn built(target: &'static Target) -> Built {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("platforms").join(target.platform.folder);
-    let options =
-        BuildOptions { toolchains: vec![Toolchain::Cross(target)], ..BuildOptions::new(Structure::DEFAULT, folder) };
+    let options = BuildOptions { toolchains: vec![Toolchain::Cross(target)], ..BuildOptions::new(design(), folder) };
     build(&options, &|_| ()).unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -127,7 +134,7 @@ fn check(built: &Built, target: &Target, processors: &[Architecture], systems: &
 
 /// A second of a unit with one input set, and where it ends.
 struct Trial {
-    unit: fn(Structure) -> Unit,
+    unit: fn(Design) -> Unit,
     file: fn(&Built) -> &PathBuf,
     fmu: fn(&Pair) -> &Fmu,
     input: &'static str,
@@ -173,7 +180,7 @@ fn linux64_runs_with_old_systems() {
     check(&built, target, &[Architecture::X86_64], OF_LINUX);
     assert!(glibc_versions(&library(&built.plant, target)).contains(&2), "it uses the C library");
     if cfg!(all(target_os = "linux", target_arch = "x86_64")) {
-        let own = build(&BuildOptions::new(Structure::DEFAULT, built.plant.with_file_name("own")), &|_| ()).unwrap();
+        let own = build(&BuildOptions::new(design(), built.plant.with_file_name("own")), &|_| ()).unwrap();
         let [built, own] = [built, own].map(|built| Pair::open(&built.controller, &built.plant).unwrap());
         for trial in &TRIALS {
             assert_eq!(trial.end(&built), trial.end(&own));
@@ -195,16 +202,23 @@ fn program(names: &[&str]) -> Option<PathBuf> {
 fn assert_agrees(built: &Built, target: &Target, mut compiler: Command, emulator: impl Fn(&Path) -> Command) {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name);
-    let unit = path("unit").with_extension(target.platform.extension);
+    // The host says nothing of the resources: units must find them in the folders that an unpacked FMU has.
+    let binaries = path("binaries").join(target.platform.folder);
+    let unit = binaries.join("unit").with_extension(target.platform.extension);
+    let resources = path("resources");
+    for folder in [&binaries, &resources] {
+        fs::create_dir_all(folder).unwrap();
+    }
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/platforms/host.c");
     let warnings = ["-std=c11", "-Wall", "-Wextra", "-Wno-cast-function-type", "-Werror"];
     let compiled = compiler.args(warnings).arg(source).arg("-o").arg(path("host.exe")).status().unwrap();
     assert!(compiled.success());
-    let own = build(&BuildOptions::new(Structure::DEFAULT, path("own")), &|_| ()).unwrap();
+    let own = build(&BuildOptions::new(design(), path("own")), &|_| ()).unwrap();
     let own = Pair::open(&own.controller, &own.plant).unwrap();
 
     for trial in &TRIALS {
-        let interface = (trial.unit)(Structure::DEFAULT).interface;
+        let interface = (trial.unit)(design()).interface;
+        fs::write(resources.join(start_file::NAME), interface.start_file.as_ref().unwrap()).unwrap();
         let reference =
             |name: &str| interface.variables.iter().position(|variable| variable.name == name).unwrap().to_string();
         fs::write(&unit, library((trial.file)(built), target)).unwrap();

@@ -3,7 +3,6 @@
 use std::fmt;
 
 use super::identity::UnknownGuid;
-use super::logger::UnknownCategory;
 use super::state::{Call, State};
 use crate::options::Item;
 use crate::variables::Bounds;
@@ -138,9 +137,6 @@ pub enum Error {
     /// A model description that belongs to another library.
     #[error(transparent)]
     Identity(#[from] Box<UnknownGuid>),
-    /// A log category that neither the unit nor the standard knows.
-    #[error(transparent)]
-    Category(#[from] UnknownCategory),
     /// A derivative that a variable does not have.
     #[error(
         "{name} has no derivative of order {order} as {role}: only continuous variables of type Real have, of order 1"

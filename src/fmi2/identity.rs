@@ -11,7 +11,7 @@ use uuid::Uuid;
 
 use super::model::Model;
 use super::naming::Naming;
-use super::start_file::{self, StartFileError};
+use super::start_file::{Place, StartFileError};
 use crate::unit::Unit;
 use crate::variables::{Bounds, Causality, Kind, Table, Variable};
 
@@ -41,8 +41,8 @@ impl<M: Model> Identity<M> {
         Naming::ALL.into_iter().flat_map(|naming| M::structures().map(move |of| Self { naming, ..Self::of(of) }))
     }
 
-    /// The unit with this GUID; the default one is tried first. `location` is what the host says of where
-    /// the resources are.
+    /// The unit with this GUID; the default one is tried first, and its resources last, where the host says that
+    /// they are (`location`) and then beside the library.
     ///
     /// # Errors
     /// If there is none; the library then belongs to another model description.
@@ -51,20 +51,22 @@ impl<M: Model> Identity<M> {
         if let Some(known) = Self::known().find(|known| wanted == Some(known.guid())) {
             return Ok(known);
         }
-        let refused = |expected: Option<&Self>, reason: Option<StartFileError>| {
-            Box::new(UnknownGuid {
-                identifier: M::IDENTIFIER,
-                expected: expected.map_or(Guid(Uuid::nil()), Self::guid),
-                unit: expected.map_or_else(String::new, |unit| unit.structure.to_string()),
-                found: guid.to_owned(),
-                reason,
-            })
-        };
-        match start_file::find::<M>(location) {
-            Ok(unit) if wanted == Some(unit.guid()) => Ok(unit),
-            Ok(unit) => Err(refused(Some(&unit), None)),
-            Err(reason) => Err(refused(Self::known().next().as_ref(), Some(reason))),
+        let places: [fn(Option<&str>) -> Place; 2] = [Place::said, |_| Place::beside_the_library()];
+        let mut refused = Vec::new();
+        for place in places.map(|place| place(location)) {
+            match place.unit(wanted) {
+                Ok(unit) => return Ok(unit),
+                Err(reason) => refused.push((place.name, reason)),
+            }
         }
+        let default = Self::known().next();
+        Err(Box::new(UnknownGuid {
+            identifier: M::IDENTIFIER,
+            expected: default.as_ref().map_or(Guid(Uuid::nil()), Self::guid),
+            unit: default.map_or_else(String::new, |unit| unit.structure.to_string()),
+            found: guid.to_owned(),
+            refused,
+        }))
     }
 
     /// The variables by the names they have in this unit.
@@ -161,29 +163,26 @@ fn describe_bounds(text: &mut String, bounds: &Bounds) -> fmt::Result {
 pub struct UnknownGuid {
     /// Model identifier of the library.
     pub identifier: &'static str,
-    /// GUID of what the resources describe, or of the default unit.
+    /// GUID of the default unit.
     pub expected: Guid,
     /// The structure of that in words.
     pub unit: String,
     /// What was given.
     pub found: String,
-    /// Why the resources describe nothing.
-    pub reason: Option<StartFileError>,
+    /// Where start values were looked for, and why none are taken from there.
+    pub refused: Vec<(String, StartFileError)>,
 }
 
 impl std::error::Error for UnknownGuid {}
 
 impl fmt::Display for UnknownGuid {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { identifier, expected, unit, found, reason } = self;
-        match reason {
-            None => write!(f, "the GUID must be {expected} for the start values in the resources, but is \"{found}\""),
-            Some(reason) => write!(
-                f,
-                "the GUID must be {expected} ({unit}) or that of another structure of {identifier}, but is \"{found}\", \
-                 and no other start values are there: {reason}"
-            ),
-        }
+        let Self { identifier, expected, unit, found, refused } = self;
+        write!(
+            f,
+            "no unit of {identifier} has the GUID \"{found}\" (that of {unit} has {expected}), and no start values have it"
+        )?;
+        refused.iter().try_for_each(|(place, reason)| write!(f, "; {place}: {reason}"))
     }
 }
 

@@ -1,11 +1,16 @@
-//! Where the resources of a unit are, out of what hosts say of it.
+//! Where the resources of a unit are, out of what hosts say of it and of where its library lies.
 //!
 //! The standard asks for a URI. Hosts write `file:///folder`, `file:/folder`, `file:////folder`,
 //! `file://localhost/folder`, with or without a slash at the end, with special characters encoded or not, or
-//! a mere path; for a Windows drive also `file://C:/folder`. Whatever is found is checked by its content, so
-//! that trying several readings does no harm.
+//! a mere path; for a Windows drive also `file://C:/folder`. Some give nothing, or another folder: but they have loaded
+//! the library, which lies in `binaries/PLATFORM` of the same unit. Whatever is found is checked by its content, so
+//! that trying several readings and places does no harm.
 
 use std::path::{Path, PathBuf};
+
+mod loaded;
+
+pub use loaded::library;
 
 /// The folders that `location` may stand for, the likeliest first; none for what is no file.
 #[must_use]
@@ -52,6 +57,16 @@ pub fn candidates(folder: &Path, name: &str) -> [PathBuf; 2] {
     [folder.join(name), folder.join("resources").join(name)]
 }
 
+/// The folders with resources that may belong to a library, the likeliest first: it lies two folders below the unit's
+/// own; where it is a link, that may hold for what it points to.
+pub fn beside(library: &Path) -> Vec<PathBuf> {
+    let resources = |library: PathBuf| library.ancestors().nth(3).map(|unit| unit.join("resources"));
+    let paths = [std::path::absolute(library), library.canonicalize()];
+    let mut folders: Vec<PathBuf> = paths.into_iter().flatten().filter_map(resources).collect();
+    folders.dedup();
+    folders
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -96,6 +111,42 @@ mod tests {
         ] {
             assert_eq!(folders(location), expected.iter().map(PathBuf::from).collect::<Vec<_>>(), "{location}");
         }
+    }
+
+    #[test]
+    fn resources_lie_beside_the_binaries() {
+        for (library, expected) in [
+            ("/tmp/a unit/binaries/linux64/toy.so", vec!["/tmp/a unit/resources"]),
+            ("/tmp/deep/er/unit/binaries/aarch64-linux/toy.so", vec!["/tmp/deep/er/unit/resources"]),
+            ("/toy.so", vec![]),
+        ] {
+            assert_eq!(beside(Path::new(library)), expected.iter().map(PathBuf::from).collect::<Vec<_>>(), "{library}");
+        }
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn a_link_to_a_library_may_stand_anywhere() {
+        let folder = tempfile::tempdir().unwrap();
+        let folder = folder.path().canonicalize().unwrap();
+        let (binaries, elsewhere) = (folder.join("unit/binaries/linux64"), folder.join("cache/of/libraries"));
+        for folder in [&binaries, &elsewhere] {
+            std::fs::create_dir_all(folder).unwrap();
+        }
+        std::fs::write(binaries.join("toy.so"), "").unwrap();
+        std::os::unix::fs::symlink(binaries.join("toy.so"), elsewhere.join("toy.so")).unwrap();
+        assert_eq!(
+            beside(&elsewhere.join("toy.so")),
+            ["cache/resources", "unit/resources"].map(|name| folder.join(name))
+        );
+    }
+
+    /// The tests are linked into a program: its path stands for that of the library.
+    #[test]
+    #[cfg_attr(miri, ignore = "it asks the loader")]
+    fn the_loader_knows_where_this_code_lies() {
+        let found = library().unwrap().canonicalize().unwrap();
+        assert_eq!(found, std::env::current_exe().unwrap().canonicalize().unwrap());
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! Messages to the host, through the callback that it hands over at instantiation.
 
+use std::borrow::Cow;
 use std::ffi::CString;
 use std::fmt::Display;
 use std::ptr;
@@ -95,21 +96,25 @@ impl Logger {
         }
     }
 
-    /// Switches the named categories, or all of them if none is named.
-    ///
-    /// # Errors
-    /// If a category is unknown: its name. Nothing is switched then.
-    pub fn switch<'a>(&mut self, on: bool, names: &[impl AsRef<str> + 'a]) -> Result<(), UnknownCategory> {
+    /// Switches the named categories, or all of them if none is named. A category that is unknown, or has no name,
+    /// is passed over with a warning: what a host would like to hear is no reason to end a simulation.
+    pub fn switch<'a>(&mut self, on: bool, names: &[Option<impl AsRef<str> + 'a>]) {
         let known = |name: &str| CATEGORIES.iter().any(|category| category.0 == name) || UNUSED.contains(&name);
-        if let Some(unknown) = names.iter().find(|name| !known(name.as_ref())) {
-            return Err(UnknownCategory { found: unknown.as_ref().to_owned() });
-        }
+        let named = || names.iter().flatten().map(AsRef::as_ref);
         for (category, enabled) in Category::EACH.into_iter().zip(&mut self.enabled) {
-            if names.is_empty() || names.iter().any(|name| name.as_ref() == category.name() || name.as_ref() == ALL) {
+            if names.is_empty() || named().any(|name| name == category.name() || name == ALL) {
                 *enabled = on;
             }
         }
-        Ok(())
+        let nameless = names.iter().any(Option::is_none).then_some("NULL");
+        let unknown = named().filter(|name| !known(name)).map(|name| Cow::from(format!("\"{name}\"")));
+        for found in unknown.chain(nameless.map(Cow::from)) {
+            let categories = CATEGORIES.map(|category| category.0).join(", ");
+            self.log(
+                Category::StatusWarning,
+                format_args!("fmi2SetDebugLogging: categories are {categories}; {found} is passed over"),
+            );
+        }
     }
 
     /// Hands a message over, if its category is enabled; nothing is composed otherwise.
@@ -136,14 +141,6 @@ impl Logger {
             );
         }
     }
-}
-
-/// A category that neither the unit nor the standard knows.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("categories must be among {}, but one is \"{found}\"", CATEGORIES.map(|category| category.0).join(", "))]
-pub struct UnknownCategory {
-    /// What was given.
-    pub found: String,
 }
 
 /// Text for C; a zero inside of it would end it early and is left out.

@@ -13,10 +13,10 @@
 
 use std::fmt::Write;
 use std::fs::{self, File};
-use std::io::Read;
-use std::path::Path;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
 
-use super::identity::Identity;
+use super::identity::{Guid, Identity};
 use super::location;
 use super::model::Model;
 use super::naming::Naming;
@@ -35,19 +35,20 @@ const NAMING: &str = "naming";
 /// Why the resources do not say what a unit is.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum StartFileError {
-    /// The host gives no folder.
-    #[error("fmuResourceLocation is no folder: \"{found}\"")]
-    NoFolder {
-        /// What was given.
-        found: String,
-    },
+    /// There is no folder.
+    #[error("there is no folder")]
+    NoFolder,
     /// The file is not there, or is no text of a sane length.
-    #[error("{NAME} cannot be read: {reason}; fmuResourceLocation is \"{location}\"")]
+    #[error("{NAME} cannot be read: {reason}")]
     Unreadable {
-        /// What was given.
-        location: String,
         /// What is wrong.
         reason: String,
+    },
+    /// The file of another unit.
+    #[error("the GUID must be {guid} for the start values in the resources")]
+    OtherUnit {
+        /// Its GUID.
+        guid: Guid,
     },
     /// A line that says nothing.
     #[error("{NAME}, line {line}: {key} must be {expected}, but is {found}")]
@@ -82,34 +83,66 @@ pub fn write<M: Model>(unit: &Identity<M>) -> Option<String> {
     (!changes.is_empty()).then(|| format!("# The start values that differ from those of the library.\n{head}{changes}"))
 }
 
-/// The unit that the resources at `location` describe.
-///
-/// # Errors
-/// If there are none, or they do not.
-pub fn find<M: Model>(location: Option<&str>) -> Result<Identity<M>, StartFileError> {
-    let location = location.unwrap_or_default();
-    let folders = location::folders(location);
-    if folders.is_empty() {
-        return Err(StartFileError::NoFolder { found: location.to_owned() });
-    }
-    let files = folders.iter().flat_map(|folder| location::candidates(folder, NAME));
-    let mut reasons = files.map(|file| load(&file));
-    let text = reasons.find_map(Result::ok).ok_or_else(|| StartFileError::Unreadable {
-        location: location.to_owned(),
-        reason: load(&folders[0].join(NAME)).err().unwrap_or_default(),
-    })?;
-    read(&text)
+/// A place where the resources may be.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Place {
+    /// What it is, for messages.
+    pub name: String,
+    folders: Vec<PathBuf>,
 }
 
-fn load(path: &Path) -> Result<String, String> {
+impl Place {
+    /// Where the host says that they are.
+    #[must_use]
+    pub fn said(location: Option<&str>) -> Self {
+        let location = location.unwrap_or_default();
+        Self { name: format!("fmuResourceLocation \"{location}\""), folders: location::folders(location) }
+    }
+
+    /// Beside the library, as the loader knows it.
+    #[must_use]
+    pub fn beside_the_library() -> Self {
+        Self::beside(location::library().as_deref())
+    }
+
+    fn beside(library: Option<&Path>) -> Self {
+        let name = library.map_or("unknown".to_owned(), |library| format!("\"{}\"", library.display()));
+        let folders = library.map_or_else(Vec::new, location::beside);
+        Self { name: format!("beside the library {name}"), folders }
+    }
+
+    /// The unit with this GUID that the resources here describe.
+    ///
+    /// # Errors
+    /// If there are none, or they do not.
+    pub fn unit<M: Model>(&self, wanted: Option<Guid>) -> Result<Identity<M>, StartFileError> {
+        let mut refused: Option<StartFileError> = None;
+        for file in self.folders.iter().flat_map(|folder| location::candidates(folder, NAME)) {
+            let reason = match load(&file).and_then(|text| read::<M>(&text)) {
+                Ok(unit) if wanted == Some(unit.guid()) => return Ok(unit),
+                Ok(unit) => StartFileError::OtherUnit { guid: unit.guid() },
+                Err(reason) => reason,
+            };
+            // What a file says is more to the point than that another is not there.
+            let says_nothing = |reason: &StartFileError| matches!(reason, StartFileError::Unreadable { .. });
+            if refused.as_ref().is_none_or(|first| says_nothing(first) && !says_nothing(&reason)) {
+                refused = Some(reason);
+            }
+        }
+        Err(refused.unwrap_or(StartFileError::NoFolder))
+    }
+}
+
+fn load(path: &Path) -> Result<String, StartFileError> {
+    let unreadable = |reason: String| StartFileError::Unreadable { reason };
+    let failed = |error: io::Error| unreadable(error.to_string());
     // Opening what is no file, a pipe for instance, could wait for ever.
-    if !fs::metadata(path).map_err(|error| error.to_string())?.is_file() {
-        return Err("it is no file".to_owned());
+    if !fs::metadata(path).map_err(failed)?.is_file() {
+        return Err(unreadable("it is no file".to_owned()));
     }
     let mut text = String::new();
-    let file = File::open(path).map_err(|error| error.to_string())?;
-    file.take(LARGEST + 1).read_to_string(&mut text).map_err(|error| error.to_string())?;
-    if text.len() as u64 > LARGEST { Err(format!("it has more than {LARGEST} bytes")) } else { Ok(text) }
+    File::open(path).map_err(failed)?.take(LARGEST + 1).read_to_string(&mut text).map_err(failed)?;
+    if text.len() as u64 > LARGEST { Err(unreadable(format!("it has more than {LARGEST} bytes"))) } else { Ok(text) }
 }
 
 /// The unit that a text describes.
@@ -227,13 +260,40 @@ mod tests {
 
             // Without the file, or with that of another unit, it is not.
             let message = |location| Identity::<Toy>::find(&guid, location).unwrap_err().to_string();
-            assert!(message(None).contains("fmuResourceLocation is no folder: \"\""), "{}", message(None));
-            assert!(message(Some("file:///none/there")).contains("start.toml cannot be read"));
+            assert!(message(None).contains("fmuResourceLocation \"\": there is no folder"), "{}", message(None));
+            let nowhere = message(Some("file:///none/there"));
+            assert!(
+                nowhere.contains("fmuResourceLocation \"file:///none/there\": start.toml cannot be read"),
+                "{nowhere}"
+            );
+            assert!(nowhere.contains("beside the library \""), "{nowhere}");
             let other = unit(|data| data.gain = 0.2);
             let (_folder, location) = file(&write(&other).unwrap());
             let message = message(Some(&location));
             assert!(message.contains(&other.guid().to_string()) && message.contains(&guid), "{message}");
         }
+    }
+
+    /// Hosts leave the location out, or give that of another unit; but they have loaded the library from its place.
+    #[test]
+    fn a_unit_is_found_beside_its_library_too() {
+        let own = unit(|data| data.gain = 0.1);
+        let wanted = Some(own.guid());
+        let folder = tempfile::tempdir().unwrap();
+        let library = folder.path().join("binaries/linux64/toy.so");
+        let beside = Place::beside(Some(&library));
+        assert!(matches!(beside.unit::<Toy>(wanted), Err(StartFileError::Unreadable { .. })));
+
+        let resources = folder.path().join("resources");
+        fs::create_dir(&resources).unwrap();
+        fs::write(resources.join(NAME), write(&own).unwrap()).unwrap();
+        assert_eq!(beside.unit::<Toy>(wanted).unwrap().start, own.start);
+        assert!(beside.name.contains("toy.so"), "{}", beside.name);
+
+        let other = unit(|data| data.gain = 0.2).guid();
+        let refused = beside.unit::<Toy>(Some(other)).unwrap_err();
+        assert_eq!(refused, StartFileError::OtherUnit { guid: own.guid() });
+        assert_eq!(Place::beside(None).unit::<Toy>(wanted).unwrap_err(), StartFileError::NoFolder);
     }
 
     #[test]
@@ -277,13 +337,13 @@ mod tests {
     #[test]
     fn only_a_file_of_sane_length_is_read() {
         let (folder, location) = file(&"#".repeat(1 << 17));
-        let message = find::<Toy>(Some(&location)).unwrap_err().to_string();
-        assert!(message.contains("more than 65536 bytes"), "{message}");
+        let message = || Place::said(Some(&location)).unit::<Toy>(None).unwrap_err().to_string();
+        assert!(message().contains("more than 65536 bytes"), "{}", message());
         fs::write(folder.path().join(NAME), [0xff, 0xfe]).unwrap();
-        assert!(find::<Toy>(Some(&location)).unwrap_err().to_string().contains("UTF-8"));
+        assert!(message().contains("UTF-8"), "{}", message());
         fs::remove_file(folder.path().join(NAME)).unwrap();
         fs::create_dir(folder.path().join(NAME)).unwrap();
-        assert!(find::<Toy>(Some(&location)).unwrap_err().to_string().contains("no file"));
+        assert!(message().contains("no file"), "{}", message());
     }
 
     proptest! {

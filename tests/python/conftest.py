@@ -73,12 +73,13 @@ def simulate(scenario: str, folder: Path, **options: float) -> dict[str, np.ndar
 
 
 @cache
-def build(structure: Structure) -> Pair:
+def build(structure: Structure, *options: str) -> Pair:
     """The FMUs of a structure."""
-    folder = TARGET / "fmus" / str(structure)
+    folder = TARGET / "fmus" / "".join([str(structure), *options])
     name = structure.balance.replace("_", "-")
     balance = [] if name == "none" else [f"--{name}"]
-    program("build", "--links", str(structure.links), *balance, "--out", str(folder))
+    links = str(structure.links)
+    program("build", "--links", links, *balance, *options, "--out", str(folder))
     return Pair(folder / "uam_controller.fmu", folder / "uam_plant.fmu")
 
 

@@ -2,7 +2,8 @@
 
     source tests/environment.sh && "$python" tests/python/hosts.py
 
-prints a table: to how many digits do the numbers agree? What is not there is named as skipped.
+prints the table of the README: to how many digits do the numbers agree? What is not there is named
+as skipped.
 """
 
 from __future__ import annotations
@@ -23,6 +24,8 @@ from conftest import CARGO, FULL, ROOT, TARGET, read_table, simulate
 MASTERS = Path(__file__).parent / "masters"
 ENVIRONMENTS = TARGET / "hosts"
 SCENARIO, STEP, STOP = "4.3b", 1e-3, 30.0
+
+HEAD = "| master | version | agrees |\n|---|---|---|"
 
 # What is compared, by unit, as far as a host has it: the plant's outputs, or else the controller's.
 # Digits are counted from the largest value of the kind.
@@ -94,7 +97,7 @@ class Script(Host):
 class Crate(Host):
     """A foreign crate, used by an example of the tests' own crate."""
 
-    name = "fmi crate, parallel"
+    name = "`fmi` crate, parallel"
     package = "fmi"
 
     def version(self) -> str:
@@ -113,7 +116,7 @@ class Crate(Host):
 class FmiSim(Host):
     """fmi-sim runs one unit: the controller, which predicts the whole pick-up on its own."""
 
-    name = "fmi-sim, controller alone"
+    name = "fmi-sim, the controller alone"
     package = "fmi-sim"
 
     def version(self) -> str:
@@ -140,12 +143,15 @@ class FmiSim(Host):
 
 HOSTS: list[Host] = [
     Script("FMPy, a parallel loop", "with_fmpy", "fmpy"),
-    Script("libcosim", "with_libcosim", "libcosimpy"),
+    Script("libcosim, with the two FMUs", "with_libcosim", "libcosimpy"),
     Script("libcosim, from the SSP", "with_libcosim_ssp", "libcosimpy"),
     Script("Ecos, from the SSP", "with_ecos", "ecospy"),
-    Script("container, parallel", "with_container", "fmu-manipulation-toolbox"),
+    Script("container of both, parallel", "with_container", "fmu-manipulation-toolbox"),
     Script(
-        "container, plant first", "with_container", "fmu-manipulation-toolbox", ("--sequential",)
+        "container of both, plant first",
+        "with_container",
+        "fmu-manipulation-toolbox",
+        ("--sequential",),
     ),
     Script("fmuloader, a parallel loop", "with_fmuloader", "fmuloader"),
     Crate(),
@@ -167,8 +173,9 @@ class Agreement:
     def __str__(self) -> str:
         if not any(self.difference.values()):
             return "bit by bit"
-        apart = "  ".join(f"{value:7.1e} {unit}" for unit, value in self.difference.items())
-        return f"{int(min(self.digits.values())):2d} digits   {apart}"
+        apart = ", ".join(f"{value:.1e} {unit}" for unit, value in self.difference.items())
+        apart = apart.replace("e-0", "e-")
+        return f"{int(min(self.digits.values()))} digits ({apart})"
 
 
 def agreement(native: Table, host: Table) -> Agreement:
@@ -226,18 +233,32 @@ def installed(python: Path) -> dict[str, str]:
     return names
 
 
-def main() -> None:
+@cache
+def found(host: Host) -> Agreement:
+    """What comes out with a host. Raises MissingError where this machine has no such host."""
     folder, ours = native()
-    print(f"Pick-up {SCENARIO}, {STEP} s, largest difference from the native master:\n")
+    return agreement(ours, host.run(folder))
+
+
+def title(host: Host) -> str:
+    """Its name, and what is special about its run."""
+    remarks = [] if host.hands_over else ["zeros in the first step"]
+    remarks += [] if host.stop == STOP else [f"the first {host.stop:.0f} s"]
+    return f"{host.name} ({'; '.join(remarks)})" if remarks else host.name
+
+
+def row(host: Host) -> str:
+    """A host's line of the table. Raises MissingError where this machine has no such host."""
+    return f"| {title(host)} | {host.package} {host.version()} | {found(host)} |"
+
+
+def main() -> None:
+    print(HEAD)
     for host in HOSTS:
-        first = "" if host.hands_over else "   (zeros in the first step)"
         try:
-            result = agreement(ours, host.run(folder))
+            print(row(host))
         except MissingError as reason:
-            print(f"skipped: {host.name} ({reason})")
-            continue
-        package = f"{host.package} {host.version()}"
-        print(f"{host.name:28}{package:30}{host.stop:3.0f} s  {result}{first}")
+            print(f"skipped: {host.name} ({reason})", file=sys.stderr)
 
 
 if __name__ == "__main__":

@@ -139,6 +139,29 @@ def test_example_as_printed_in_the_readme(pair: Pair) -> None:
     assert picture.read_bytes().startswith(b"\x89PNG")
 
 
+def test_start_values_by_number_as_printed_in_the_readme(pair: Pair, tmp_path: Path) -> None:
+    """Minimum norm by Euler's step: the line of the README gives what the names give."""
+    readme = (ROOT / "README.md").read_text()
+    (line,) = (
+        line for line in readme.splitlines() if "fmpy simulate" in line and "start-v" in line
+    )
+    place = {"out/uam_controller.fmu": pair.controller, "out/euler.csv": tmp_path / "euler.csv"}
+    words = [str(place.get(word, word)) for word in line.split()]
+    subprocess.run([sys.executable, "-m", *words], check=True, capture_output=True)
+    by_number = read_table(tmp_path / "euler.csv")
+    start = {"ik.resolution": "minimum_norm", "ik.discretization": "euler"}
+    types = {v.name: v.declaredType for v in read_model_description(pair.controller).modelVariables}
+    numbers = {
+        name: [i.name for i in types[name].items].index(item) + 1 for name, item in start.items()
+    }
+    by_name = simulate_fmu(str(pair.controller), start_values=numbers)
+    other = simulate_fmu(str(pair.controller))
+    for joint in (1, 2, 3):
+        name = f"joint[{joint}].rate_command"
+        np.testing.assert_allclose(by_number[name], by_name[name], rtol=0, atol=1e-12)
+        assert np.max(np.abs(by_number[name] - other[name])) > 1e-2
+
+
 @pytest.mark.parametrize("unit", ["controller", "plant"])
 def test_command_line_of_fmpy(pair: Pair, tmp_path: Path, unit: str) -> None:
     fmpy = [sys.executable, "-m", "fmpy"]

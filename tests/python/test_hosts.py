@@ -7,7 +7,7 @@ import subprocess
 import pytest
 
 from conftest import Pair
-from hosts import HOSTS, Host, MissingError, agreement, installed, native, python_of
+from hosts import HOSTS, Host, MissingError, found, installed, python_of
 
 # Differences of rounding: foreign masters add up time, ours multiplies.
 ROUNDING = 9.5
@@ -18,15 +18,14 @@ FIRST_STEP = 9.0
 
 @pytest.mark.parametrize("host", HOSTS, ids=lambda host: host.name)
 def test_the_pick_up_has_the_same_numbers(host: Host) -> None:
-    folder, ours = native()
     try:
-        found = agreement(ours, host.run(folder))
+        agrees = found(host)
     except MissingError as reason:
         print(f"skipped: {host.name} ({reason})")
         pytest.skip(str(reason))
-    assert found.rows >= round(host.stop / 1e-3) - 1
+    assert agrees.rows >= round(host.stop / 1e-3) - 1
     bar = ROUNDING if host.hands_over else FIRST_STEP
-    assert min(found.digits.values()) >= bar, str(found)
+    assert min(agrees.digits.values()) >= bar, str(agrees)
 
 
 def test_the_toolbox_finds_nothing_wrong(pair: Pair) -> None:

@@ -1,4 +1,4 @@
-"""Terminals and icons: the file of FMI 3.0 in units of FMI 2.0."""
+"""Terminals and icons: the file of FMI 3.0 in units of FMI 2.0, where it is asked for."""
 
 from __future__ import annotations
 
@@ -27,9 +27,28 @@ def members(fmu: Path) -> dict[str, str]:
     return {m.get("memberName"): m.get("variableName") for m in terminal}
 
 
+def fmi_library_complains(fmu: Path) -> bool:
+    """The rule of FMI Library 3.0.4: the file, if any, has the model description's version."""
+    with zipfile.ZipFile(fmu) as archive:
+        if "terminalsAndIcons/terminalsAndIcons.xml" not in archive.namelist():
+            return False
+        names = ("terminalsAndIcons/terminalsAndIcons.xml", "modelDescription.xml")
+        here, there = (etree.fromstring(archive.read(name)).get("fmiVersion") for name in names)
+    return here != there
+
+
+@pytest.mark.parametrize("structure", SOME, ids=str)
+def test_no_importer_complains_unless_the_file_is_asked_for(structure: Structure) -> None:
+    """What the schema wants and what FMI Library wants exclude each other."""
+    pair = build(structure)
+    assert not fmi_library_complains(pair.controller) and not fmi_library_complains(pair.plant)
+    asked = build(structure, "--terminals")
+    assert fmi_library_complains(asked.plant) and members(asked.plant)
+
+
 @pytest.mark.parametrize("structure", SOME, ids=str)
 def test_both_units_have_matching_plugs(structure: Structure) -> None:
-    pair = build(structure)
+    pair = build(structure, "--terminals")
     controller, plant = members(pair.controller), members(pair.plant)
     assert controller.keys() == plant.keys()
     coordinates = structure.links + (structure.balance != "none")

@@ -5,6 +5,7 @@ use std::fmt;
 use comfy_table::ContentArrangement;
 
 use super::{Claim, Deviation, Quantity};
+use crate::markdown;
 
 /// Characters per line.
 const WIDTH: u16 = 120;
@@ -120,27 +121,30 @@ impl Table {
         })
     }
 
-    /// The table for a page that is written in Markdown, with the reasons below it.
+    /// The table for a page that is written in Markdown.
     #[must_use]
     pub fn markdown(&self) -> String {
-        let row = |cells: &mut dyn Iterator<Item = String>| {
-            let cells: Vec<String> = cells.map(|cell| cell.replace('|', "\\|")).collect();
-            format!("| {} |\n", cells.join(" | "))
-        };
-        let head = ["simulation", "quantity", "thesis"].map(str::to_owned);
-        let mut text = row(&mut head.into_iter().chain(self.columns.iter().cloned()));
-        text += &row(&mut std::iter::repeat_n("---".to_owned(), 3 + self.columns.len()));
+        let head: Vec<&str> =
+            ["simulation", "quantity", "thesis"].into_iter().chain(self.columns.iter().map(String::as_str)).collect();
+        let mut rows = Vec::new();
         for section in &self.sections {
             let name = section.title.split(' ').next().unwrap_or_default();
             for (i, Row { quantity, thesis, cells, .. }) in section.rows.iter().enumerate() {
                 let name = if i == 0 { format!("**{name}**") } else { String::new() };
                 let cells = cells.iter().map(|cell| format!("{} {}", cell.text, cell.mark()).trim_end().to_owned());
                 let head = [name, quantity.clone(), thesis.unwrap_or_default().to_owned()];
-                text += &row(&mut head.into_iter().chain(cells));
+                rows.push(head.into_iter().chain(cells).collect());
             }
         }
+        markdown::table(&head, &rows)
+    }
+
+    /// The table for a page that is written in Markdown, with the reasons below it why numbers do not agree.
+    #[must_use]
+    pub fn markdown_with_remarks(&self) -> String {
         let (statements, agreeing) = self.agreement();
-        text += &format!("\n{agreeing} of {statements} numbers agree with the thesis. Where one does not:\n\n");
+        let text = self.markdown()
+            + &format!("\n{agreeing} of {statements} numbers agree with the thesis. Where one does not:\n\n");
         self.remarks().fold(text, |text, remark| text + "- " + &remark + "\n")
     }
 

@@ -9,11 +9,12 @@ use fmu_build::study::on_all_cores;
 use uam::scenarios::find;
 
 use super::{Pairs, Progress, wrote};
+use crate::cli::PrintArguments;
 
 /// The pick-up with the extended Jacobian.
 const SCENARIO: &str = "4.3b";
 
-pub fn execute(out: &Path) -> Result<()> {
+pub fn execute(arguments: &PrintArguments, out: &Path) -> Result<()> {
     let scenario = find(SCENARIO)?;
     let pairs = Pairs::build(out, [scenario.structure])?;
     let pair = pairs.of(scenario.structure).with_context(|| format!("no FMUs for {}", scenario.structure))?;
@@ -32,6 +33,10 @@ pub fn execute(out: &Path) -> Result<()> {
         Curve { variant, points: of_this.map(|&(_, step, errors)| (step, errors)).collect() }
     });
 
+    if arguments.markdown {
+        print!("{}", report::budget::markdown(&curves));
+        return Ok(());
+    }
     println!("{}", report::budget::text(&curves));
     let page = out.join("budget.html");
     std::fs::write(&page, report::budget::html(&scenario, &curves)?)

@@ -30,7 +30,7 @@ fn design(arguments: &BuildArguments) -> Result<Design> {
         Some(name_or_file) => Design::from(scenario(name_or_file)?),
         None => Design::from(arguments.structure()?),
     };
-    Ok(Design { naming, ..design })
+    Ok(Design { naming, terminals: arguments.terminals, ..design })
 }
 
 /// What compiles the libraries, for each folder of finished files.

@@ -36,6 +36,10 @@ pub fn execute(arguments: &ReachArguments, out: &Path) -> Result<()> {
     progress.finish();
     let results = results.into_iter().collect::<Result<Vec<Reach>>>()?;
 
+    if arguments.print.markdown {
+        print!("{}", report::reach::markdown(&results));
+        return Ok(());
+    }
     println!("{}\n", report::reach::table(&scenarios, &results));
     let page = out.join("reach.html");
     report::reach::report(&scenarios, &results, &changed)?

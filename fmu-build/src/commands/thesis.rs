@@ -8,9 +8,9 @@ use fmu_build::study;
 use uam::scenarios::{PICK_UP, catalogue};
 
 use super::{Pairs, Progress, complain};
-use crate::cli::ThesisArguments;
+use crate::cli::PrintArguments;
 
-pub fn execute(arguments: &ThesisArguments, out: &Path) -> Result<()> {
+pub fn execute(arguments: &PrintArguments, out: &Path) -> Result<()> {
     let mut scenarios = catalogue()?;
     scenarios.retain(|scenario| scenario.id != PICK_UP);
     let pairs = Pairs::build(out, scenarios.iter().map(|scenario| scenario.structure))?;
@@ -23,7 +23,7 @@ pub fn execute(arguments: &ThesisArguments, out: &Path) -> Result<()> {
 
     let table = study::table(&summaries);
     if arguments.markdown {
-        print!("{}", table.markdown());
+        print!("{}", table.markdown_with_remarks());
         return Ok(());
     }
     let (statements, agreeing) = table.agreement();

@@ -57,7 +57,11 @@ pub fn execute(arguments: &VaryArguments, out: &Path) -> Result<()> {
         }
         table.add(format!("{} · {} · by {}", scenarios[0].id, discretization.name(), names.join(", ")), rows);
     }
-    println!("{table}");
+    if arguments.print.markdown {
+        print!("{}", table.markdown());
+    } else {
+        println!("{table}");
+    }
     complain(&summaries);
     Ok(())
 }

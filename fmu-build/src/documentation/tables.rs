@@ -38,7 +38,8 @@ fn group(variables: &[&Variable]) -> Markup {
                     tr {
                         th { "Name" }
                         th { "Unit" }
-                        @if started { th.number { "Start" } th { "Allowed" } }
+                        @if started { th.number { "Start" } }
+                        th { "Allowed" }
                         th { "Meaning" }
                     }
                 }
@@ -57,8 +58,8 @@ fn row(variable: &Variable, started: bool) -> Markup {
             td { (unit_of(&variable.value)) }
             @if started {
                 td.number { (start_of(&variable.value)) }
-                td { (allowed(&variable.value)) }
             }
+            td { (allowed(&variable.value)) }
             td {
                 (variable.description)
                 @if variable.variability == Variability::Tunable { " " em { "(tunable)" } }
@@ -80,15 +81,25 @@ fn start_of(value: &Value) -> String {
         Value::Real { start, .. } => start.to_string(),
         Value::Boolean { start } => start.to_string(),
         Value::Enumeration { options, start } => {
-            let index = usize::try_from(start - 1).unwrap_or_default();
-            options.items.get(index).map_or_else(String::new, |item| item.name.to_owned())
+            numbered(options).find(|(number, _)| number == start).map_or_else(String::new, |(_, text)| text)
         }
     }
 }
 
 fn allowed(value: &Value) -> String {
-    let Value::Real { bounds, .. } = value else { return String::new() };
-    bounds.min().map_or_else(String::new, |min| format!("{} {min}", if bounds.min_excluded() { ">" } else { "≥" }))
+    match value {
+        Value::Real { bounds, .. } => {
+            let sign = if bounds.min_excluded() { ">" } else { "≥" };
+            bounds.min().map_or_else(String::new, |min| format!("{sign} {min}"))
+        }
+        Value::Boolean { .. } => String::new(),
+        Value::Enumeration { options, .. } => numbered(options).map(|(_, text)| text).collect::<Vec<_>>().join(", "),
+    }
+}
+
+/// The alternatives with their numbers, which are all that many hosts understand.
+fn numbered(enumeration: &Enumeration) -> impl Iterator<Item = (i32, String)> {
+    (1..).zip(enumeration.items).map(|(number, item)| (number, format!("{number} = {}", item.name)))
 }
 
 fn alternatives(enumeration: &Enumeration) -> Markup {

@@ -2,17 +2,37 @@
 
 use comfy_table::presets::UTF8_FULL_CONDENSED;
 use maud::{Markup, html};
-use uam::parameters::Discretization;
+use uam::parameters::{Discretization, Hold};
 use uam::scenarios::Scenario;
 
 use super::chart::{self, Across, Panel, Scale};
 use super::panels::panels;
 use super::{Error, Paint, page};
-use crate::budget::{Curve, EULER, Errors, Pilot, STEPS, Variant, observed_order};
+use crate::budget::{Curve, EULER, EXACT, Errors, Pilot, STEPS, Variant, Watch, observed_order};
 use crate::coupling::Order;
+use crate::markdown;
 
 /// Errors that users may ask for \[m\].
 const WANTED: [f64; 4] = [1e-3, 1e-4, 1e-6, 1e-9];
+
+/// The steps that the documents show \[s\].
+const SHOWN: [f64; 3] = [1e-3, 1e-2, 2e-2];
+/// Errors below this are nothing but rounding \[m\].
+const ROUNDING: f64 = 1e-11;
+/// An error whose order is smaller does not depend on the step.
+const NO_ORDER: f64 = 0.5;
+/// The variants that the documents show, in the words of users.
+const IN_WORDS: [(&str, Variant); 6] = [
+    ("`exact`, at the communication points", EXACT),
+    ("`exact`, between them, `ik.hold` = `zero_order`", Variant { watch: Watch::Between, ..EXACT }),
+    (
+        "`exact`, between them, `ik.hold` = `first_order`",
+        Variant { hold: Hold::FirstOrder, watch: Watch::Between, ..EXACT },
+    ),
+    ("`euler` (the thesis)", EULER),
+    ("`exact`, master steps the controller first", Variant { order: Order::ControllerFirst, ..EXACT }),
+    ("`exact`, autopilot sampled at 10 ms, controller not told", Variant { pilot: Pilot::SampledUnknown, ..EXACT }),
+];
 
 /// What is measured.
 struct Measure {
@@ -88,6 +108,33 @@ pub fn text(curves: &[Curve]) -> String {
     };
     let errors = MEASURES.iter().map(|measure| table(head(&format!("{} [m]", measure.title)), rows(curves, measure)));
     errors.chain([table(advice_head(), advice(curves))]).collect::<Vec<_>>().join("\n\n")
+}
+
+/// What users need to know of the errors of the end effector, in Markdown.
+#[must_use]
+pub fn markdown(curves: &[Curve]) -> String {
+    let mut head = vec!["largest error of the end effector".to_owned()];
+    head.extend(SHOWN.map(step));
+    head.push("order".to_owned());
+    head.extend([1e-4, 1e-6].map(|error| format!("longest step for {error:.0e} m")));
+    let row = |(words, variant): &(&str, Variant)| {
+        let curve = curves.iter().find(|curve| curve.variant == *variant)?;
+        let points = curve.of(|errors| errors.end_effector);
+        let at = |step: f64| points.iter().find(|(tried, _)| *tried == step).map_or(f64::NAN, |(_, error)| *error);
+        let errors = SHOWN.map(at);
+        let order = match observed_order(&points) {
+            _ if errors.iter().all(|error| *error < ROUNDING) => "rounding".to_owned(),
+            Some(order) if order.abs() >= NO_ORDER => format!("{order:.1}"),
+            _ => "none".to_owned(),
+        };
+        let longest = [1e-4, 1e-6].map(|error| curve.longest_step_within(error).map_or("none".to_owned(), step));
+        let shown = |error: f64| {
+            if error < ROUNDING { format!("< {ROUNDING:.0e} m") } else { format!("{error:.0e} m") }
+        };
+        let cells = errors.map(shown).into_iter().chain([order]).chain(longest);
+        Some(std::iter::once((*words).to_owned()).chain(cells).collect())
+    };
+    markdown::table(&head, &IN_WORDS.iter().filter_map(row).collect::<Vec<_>>())
 }
 
 /// The page.

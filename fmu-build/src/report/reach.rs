@@ -9,6 +9,7 @@ use super::panels::panels;
 use super::{Error, Figure, Report, Topic, style};
 use crate::claims::DISCRETIZATIONS;
 use crate::claims::{Cell, Row, Table};
+use crate::markdown;
 use crate::reach::{AGREEMENT, BALANCED, MOTIONS, Reach};
 
 /// The reaches of all motions beside those of the thesis. `results`: for each scenario those with each
@@ -34,6 +35,23 @@ pub fn table(scenarios: &[Scenario], results: &[Reach]) -> Table {
         table.add(format!("{} · {}", scenario.id, scenario.title), vec![followed, balanced]);
     }
     table
+}
+
+/// The reaches in Markdown: with each discretization, and how far the moment on the UAV stays small, too.
+#[must_use]
+pub fn markdown(results: &[Reach]) -> String {
+    let names = DISCRETIZATIONS.map(|discretization| format!("`{}`", discretization.name()));
+    let mut head = vec![String::new(), "thesis".to_owned()];
+    head.extend(names.iter().cloned());
+    head.extend(names.iter().map(|name| format!("{name}, at most {BALANCED} N m on the UAV")));
+    let way = |way: f64| format!("{:.0} mm", 1e3 * way);
+    let rows = MOTIONS.iter().zip(results.chunks(DISCRETIZATIONS.len())).map(|(motion, results)| {
+        let mut row = vec![format!("{}, {}", motion.scenario, motion.about), motion.says.to_owned()];
+        row.extend(results.iter().map(|reach| way(reach.followed)));
+        row.extend(results.iter().map(|reach| way(reach.balanced)));
+        row
+    });
+    markdown::table(&head, &rows.collect::<Vec<_>>())
 }
 
 /// The table, and the moment on the UAV over the way.

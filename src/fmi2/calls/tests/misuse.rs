@@ -134,8 +134,8 @@ fn lists_are_checked_before_they_are_read() {
 
         assert_eq!(fmi2SetDebugLogging(c, 1, usize::MAX, &c"logAll".as_ptr()), ERROR);
         assert_eq!(fmi2SetDebugLogging(c, 1, 1, null()), ERROR);
-        assert_eq!(fmi2SetDebugLogging(c, 1, 1, &null()), ERROR);
-        assert_eq!(fmi2SetDebugLogging(c, 1, 1, &c"\xff".as_ptr()), ERROR);
+        assert_eq!(fmi2SetDebugLogging(c, 1, 1, &null()), OK);
+        assert_eq!(fmi2SetDebugLogging(c, 1, 1, &c"\xff".as_ptr()), OK);
     }
     assert_eq!(toy.step(0.0, 1.0), OK);
 }
