@@ -45,9 +45,11 @@ options! {
         #[doc = " An error left over, or a jump of the reference, is being made good at a bounded speed; the path may be given \
                  up in part."]
         CatchingUp = "catching_up",
-        #[doc = " Limits bind, and the second task gives way; the interval ends within 1e-6 m of the reference."]
+        #[doc = " Limits bind, or bring a joint back from past its stop, and the second task gives way; the interval ends \
+                 within 1e-6 m of the reference."]
         TaskLimited = "task_limited",
-        #[doc = " Limits bind, and the path may be given up in part: they allow nothing nearer to it (least_squares)."]
+        #[doc = " Limits bind, or bring a joint back from past its stop, and the path may be given up in part: they allow \
+                 nothing nearer to it (least_squares)."]
         PathLimited = "path_limited",
         #[doc = " The interval ends more than 1e-6 m off the reference: it is too long for the motion in it, or the \
                  discretization is euler, which makes nothing good."]

@@ -379,6 +379,12 @@ impl<const N: usize> Dynamics<N> {
         *situation = without;
     }
 
+    /// Whether the autopilot takes samples, and time counts.
+    #[must_use]
+    pub fn is_sampled(&self) -> bool {
+        self.autopilot.mode == AutopilotMode::Pid && self.autopilot.sample_time > 0.0
+    }
+
     /// Whether the base slides along x only.
     #[must_use]
     pub fn on_carriage(&self) -> bool {

@@ -20,6 +20,7 @@ fn problem<const N: usize>(random: &mut Random) -> Problem<N> {
         path: SMatrix::from_fn(|_, _| random.about_zero(0.3)),
         velocity: random.vector(0.3),
         interval: 1e-3,
+        caution: 0.0,
         moment: Task { row: SVector::from_fn(|_, _| random.about_zero(0.3)), value: random.about_zero(0.1) },
     }
 }
@@ -136,7 +137,7 @@ proptest! {
 fn the_stretched_arm_gives_up_what_it_cannot_do() {
     let path = SMatrix::<f64, 2, 2>::from_columns(&[vec2(0.26, 0.0), vec2(0.13, 0.0)]);
     let moment = Task { row: SVector::zeros(), value: 0.0 };
-    let found = Problem { path, velocity: vec2(0.1, 0.1), interval: 1e-3, moment }.resolve(PathAxes::Both, false, 0.26);
+    let found = Problem { path, velocity: vec2(0.1, 0.1), interval: 1e-3, caution: 0.0, moment }.resolve(PathAxes::Both, false, 0.26);
     let factor = 0.1 / (0.26_f64.powi(2) + 0.13_f64.powi(2));
     assert_close(found.rate.as_slice(), &[0.26 * factor, 0.13 * factor], 1e-14, "rate");
     assert!(found.path_damped && found.min_singular_value == 0.0);
@@ -157,7 +158,7 @@ fn a_nearly_stretched_arm_is_drawn_out_without_swinging() {
             let path = SMatrix::<f64, 2, 2>::from_columns(&[vec2(-tip.y, tip.x), vec2(-l * cos, l * sin)]);
             let velocity = tip.normalize() * 0.2;
             let moment = Task { row: SVector::zeros(), value: 0.0 };
-            let found = Problem { path, velocity, interval, moment }.resolve(PathAxes::Both, false, 2.0 * l);
+            let found = Problem { path, velocity, interval, caution: 0.0, moment }.resolve(PathAxes::Both, false, 2.0 * l);
             // In these axes the second rate unbends the arm if it is positive.
             let next = bend - found.rate[1] * interval;
             assert!(next.abs() < bend.abs() + 1e-12, "bend {bend} to {next} in step {step} of {interval} s");
@@ -173,7 +174,7 @@ fn a_nearly_stretched_arm_is_drawn_out_without_swinging() {
 fn a_task_that_contradicts_the_path_gives_way() {
     let path = SMatrix::<f64, 2, 3>::from_columns(&[vec2(0.3, 0.1), vec2(0.1, 0.2), vec2(-0.1, 0.2)]);
     let moment = Task { row: path.row(0).transpose(), value: 1.0 };
-    let found = resolve(&Problem { path, velocity: vec2(0.1, -0.1), interval: 1e-3, moment }, true);
+    let found = resolve(&Problem { path, velocity: vec2(0.1, -0.1), interval: 1e-3, caution: 0.0, moment }, true);
     assert!(found.task_damped && !found.path_damped);
     assert_close((path * found.rate).as_slice(), &[0.1, -0.1], 1e-8, "velocity");
 }
@@ -183,7 +184,7 @@ fn a_task_that_contradicts_the_path_gives_way() {
 fn a_path_along_one_axis_leaves_the_other_alone() {
     let path = SMatrix::<f64, 2, 3>::from_columns(&[vec2(0.3, 0.0), vec2(0.1, 0.0), vec2(-0.1, 0.0)]);
     let moment = Task { row: SVector::from([0.1, 0.2, 0.3]), value: 1.0 };
-    let problem = Problem { path, velocity: vec2(0.1, 0.0), interval: 1e-3, moment };
+    let problem = Problem { path, velocity: vec2(0.1, 0.0), interval: 1e-3, caution: 0.0, moment };
     let found = problem.resolve(PathAxes::Horizontal, true, REACH);
     let rows = SMatrix::<f64, 2, 3>::from_rows(&[path.row(0).into_owned(), moment.row.transpose()]);
     let expected = rows.pseudo_inverse(0.0).unwrap() * vec2(0.1, 1.0);

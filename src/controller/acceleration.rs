@@ -99,6 +99,7 @@ impl<const N: usize> Outset<N> {
             path,
             velocity: self.resolver.followed(velocity) - followed(response.end_effector_free),
             interval,
+            caution: self.damping.caution(),
             moment,
         }
     }

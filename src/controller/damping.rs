@@ -90,6 +90,11 @@ impl MomentDamping {
         if self.damping > 0.0 { self.slow + (momentum - self.slow) * self.factors.left } else { momentum }
     }
 
+    /// How carefully the moment is to be met, 0 to 1: limits, or the path, have lately kept it from what was wanted.
+    pub fn caution(&self) -> f64 {
+        self.more / MORE
+    }
+
     /// The rates of the present plan have been held for `size` \[s\]; `met`: the moment was what was wanted.
     pub fn advance(&mut self, size: f64, met: bool) {
         if self.damping == 0.0 {

@@ -24,6 +24,7 @@ impl<const N: usize> Outset<N> {
             path: response.jacobian,
             velocity: here.turn.undo(velocity) - response.end_effector_free,
             interval: horizon,
+            caution: self.damping.caution(),
             moment: self.moment_task(&response, carried),
         };
         let resolved = self.solve(&problem, clock, &self.places, Aims::All);

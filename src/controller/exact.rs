@@ -106,6 +106,7 @@ impl<const N: usize> Outset<N> {
             path: response.jacobian,
             velocity: turn.undo(behind / way),
             interval: horizon,
+            caution: 0.0,
             moment: Task { row: response.carried, value: 0.0 },
         };
         let braking = 0.3 * self.resolver.acceleration_along(&along);
@@ -186,6 +187,7 @@ impl<const N: usize> Outset<N> {
                 path: response.jacobian,
                 velocity: response.jacobian * plan.motion.rate_after(0.5 * horizon) + turn.undo(missing / horizon),
                 interval: horizon,
+                caution: self.damping.caution(),
                 moment,
             };
             let at_end = || self.at_end(&response, *turn, target.velocity, moment, horizon);

@@ -46,6 +46,8 @@ pub struct Controller<const N: usize> {
     /// and the laws are those of the plan.
     planned_end: Box<Prediction<N>>,
     untouched: bool,
+    /// When the planned interval begins, from the start \[s\].
+    planned_at: f64,
 }
 
 impl<const N: usize> Controller<N> {
@@ -81,6 +83,7 @@ impl<const N: usize> Controller<N> {
             slope_before: SVector::zeros(),
             planned_end,
             untouched: false,
+            planned_at: 0.0,
             aim: Target { displacement: origin, ..Target::AT_REST },
             planned_miss: Vec2::zeros(),
             lasting_moment: None,
@@ -125,7 +128,7 @@ impl<const N: usize> Controller<N> {
         }
         outset.motion = plan.motion;
         outset.places = plan.places;
-        self.untouched = true;
+        (self.planned_at, self.untouched) = (t, true);
         outputs.status = plan.status;
         outputs.min_singular_value = plan.min_singular_value;
         outputs.velocity_residual = plan.velocity_residual;
@@ -136,8 +139,9 @@ impl<const N: usize> Controller<N> {
     /// Advances the prediction by `size` \[s\] at the rates sent.
     fn predict(&mut self, t: f64, size: f64) -> Result<()> {
         let Self { outset, planned_end: end, .. } = self;
-        // The plan has already been there, if the host makes the step that it was made for.
-        if !self.untouched || size != self.clock.horizon {
+        // The plan has already been there, if the host makes the step that it was made for; samples of the autopilot are
+        // taken by the clock, which may have been rounded.
+        if !self.untouched || size != self.clock.horizon || (t != self.planned_at && outset.dynamics.is_sampled()) {
             let mut step = Plan::moving(outset.motion);
             if self.discretization == Discretization::Euler {
                 step.moment_residual = outset.predict_euler(t, size, end) / size;
@@ -190,6 +194,7 @@ impl<const N: usize> Memory for Controller<N> {
             lasting_moment,
             planned_end,
             untouched,
+            planned_at,
         } = self;
         outset.pass(tape);
         slope_before.pass(tape);
@@ -200,6 +205,7 @@ impl<const N: usize> Memory for Controller<N> {
         lasting_moment.pass(tape);
         planned_end.pass(tape);
         untouched.pass(tape);
+        planned_at.pass(tape);
     }
 }
 

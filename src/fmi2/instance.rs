@@ -21,6 +21,11 @@ pub use values::Scalar;
 const GAP: f64 = 1e-6;
 /// Late times carry the rounding of many additions: this is added to [`GAP`] per second of time.
 const GAP_PER_SECOND: f64 = 1e-12;
+/// Hosts that count time in single precision round the beginning and the end of a step: by this share of the time, as
+/// long as that is no large part of the step.
+const SINGLE_PRECISION: f64 = 2.0 * f32::EPSILON as f64;
+/// See [`SINGLE_PRECISION`]: a larger gap is a step left out.
+const GAP_PER_STEP: f64 = 0.1;
 
 /// A unit between instantiation and release. Value references are positions in the model's table.
 ///
@@ -243,7 +248,7 @@ impl<M: Model> Instance<M> {
     fn checked_step(&self, from: f64, size: f64) -> Result<CommunicationStep, Error> {
         let Situation { start_time, stop_time, time, .. } = self.now;
         let step = CommunicationStep { start_time, from, size };
-        let gap = gap_at(time);
+        let gap = gap_at(time, size);
         // No comparison holds for what is no number.
         let possible = (from - time).abs() <= gap
             && stop_time.is_none_or(|stop_time| from <= stop_time + gap)
@@ -257,7 +262,7 @@ impl<M: Model> Instance<M> {
     #[inline(never)]
     fn no_step(&self, from: f64, size: f64) -> Error {
         let Situation { stop_time, time, .. } = self.now;
-        let gap = gap_at(time);
+        let gap = gap_at(time, size);
         if !from.is_finite() {
             return argument("currentCommunicationPoint", "a finite number", from);
         }
@@ -366,10 +371,11 @@ impl<M: Model> Instance<M> {
     }
 }
 
-/// Largest gap between the end of a step at `time` and the beginning of the next \[s\].
+/// Largest gap between the end of a step at `time` and the beginning of the next one, of length `size` \[s\].
 #[inline]
-fn gap_at(time: f64) -> f64 {
-    GAP + GAP_PER_SECOND * time.abs()
+fn gap_at(time: f64, size: f64) -> f64 {
+    let time = time.abs();
+    GAP + GAP_PER_SECOND * time + (SINGLE_PRECISION * time).min(GAP_PER_STEP * size.max(0.0))
 }
 
 #[inline]

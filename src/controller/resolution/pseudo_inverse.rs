@@ -39,6 +39,8 @@ pub struct Problem<const N: usize> {
     pub velocity: Vec2,
     /// Length of the interval \[s\].
     pub interval: f64,
+    /// How carefully the second task is met, 0 to 1: it is, after it has contradicted the path.
+    pub caution: f64,
     /// The rates that meet it exert no moment on the UAV in the mean: an impulse \[N m s\].
     pub moment: Task<N>,
 }
@@ -146,9 +148,10 @@ impl<const N: usize> Problem<N> {
 
     /// The same with more coordinates, which move nothing.
     pub(super) fn padded(&self) -> Problem<MAX_COORDINATES> {
-        let Self { path, velocity, interval, moment: Task { row, value } } = *self;
+        let Self { path, velocity, interval, caution, moment: Task { row, value } } = *self;
         let row = row.fixed_resize::<MAX_COORDINATES, 1>(0.0);
-        Problem { path: path.fixed_resize::<2, MAX_COORDINATES>(0.0), velocity, interval, moment: Task { row, value } }
+        let path = path.fixed_resize::<2, MAX_COORDINATES>(0.0);
+        Problem { path, velocity, interval, caution, moment: Task { row, value } }
     }
 
     /// [`Problem::resolve`] far from singular configurations; none if that of the task is not far.
@@ -161,6 +164,9 @@ impl<const N: usize> Problem<N> {
         let lift = |w: Vec2| path.transpose() * (vec2(yy * w.x - xy * w.y, xx * w.y - xy * w.x) * inverse);
         let mut rate = lift(*velocity);
         if without_moment {
+            if self.caution > 0.0 {
+                return None;
+            }
             let free = task.row - lift(path * task.row);
             let left = free.norm_squared();
             if left < threshold * threshold * task.row.norm_squared() || left < f64::MIN_POSITIVE {
@@ -202,7 +208,7 @@ impl Problem<MAX_COORDINATES> {
     #[cold]
     #[inline(never)]
     fn damped(&self, gram: &Gram, without_moment: bool, thresholds: &Thresholds) -> PseudoInverse<MAX_COORDINATES> {
-        let Self { velocity, interval, moment: task, .. } = self;
+        let Self { velocity, interval, caution, moment: task, .. } = self;
         // The directions in which the arm moves easily and hardly: each is damped on its own.
         let strong = gram.strong();
         let weak = perp(strong);
@@ -221,9 +227,12 @@ impl Problem<MAX_COORDINATES> {
             let free = self.beside_path(&directions);
             let size = task.row.norm();
             let share = free.norm() / size.max(f64::MIN_POSITIVE);
-            let damping = damping(share, thresholds.task) * size * size;
-            task_damped = damping > 0.0 || nearness < 1.0;
             let missing = (task.value - task.row.dot(&rate)) * nearness * nearness;
+            // Where path and task contradict each other, what is left of the row beside the path changes its sign with the
+            // configuration. With less damping than this, one interval would lead across, and the next one back.
+            let turning = caution * interval * missing.abs() / size.max(f64::MIN_POSITIVE);
+            let damping = damping(share, (thresholds.task * thresholds.task + turning).sqrt()) * size * size;
+            task_damped = damping > 0.0 || nearness < 1.0;
             rate += free * (missing / (free.norm_squared() + damping).max(f64::MIN_POSITIVE));
         }
         PseudoInverse { rate, min_singular_value, path_damped: nearness < 1.0, task_damped }
