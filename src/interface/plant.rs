@@ -6,6 +6,7 @@ mod outputs;
 
 use super::declare_time;
 use crate::bytes::{Memory, Tape};
+use crate::culprit::blame;
 use crate::defaults::default_parameters;
 use crate::error::Error;
 use crate::fmi2::{CommunicationStep, Model};
@@ -82,9 +83,11 @@ impl Model for PlantUnit {
     }
 
     fn initialize(structure: Structure, data: &mut Data, _start_time: f64) -> Result<Self, Error> {
-        let simulation = plant::new(structure, &data.parameters)?;
-        simulation.initial_outputs(&mut data.outputs)?;
-        Ok(Self(simulation))
+        let begin = |data: &mut Data| {
+            let simulation = plant::new(structure, &data.parameters)?;
+            simulation.initial_outputs(&mut data.outputs).map(|()| Self(simulation))
+        };
+        begin(data).map_err(|error| blame::<Self>(structure, data, &|data| begin(data).map(|_| ()), error))
     }
 
     fn tune(&mut self, data: &Data) {
