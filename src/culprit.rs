@@ -14,7 +14,7 @@ use crate::variables::{Causality, Kind, Variable};
 pub fn blame<M: Model>(
     structure: M::Structure,
     data: &M::Data,
-    begin: &dyn Fn(&mut M::Data) -> Result<()>,
+    begin: &dyn Fn(&mut M::Data) -> Result<M>,
     error: Error,
 ) -> Error {
     if error.parameter().is_some() {

@@ -83,12 +83,13 @@ impl Model for ControllerUnit {
     }
 
     fn initialize(structure: Structure, data: &mut Data, _start_time: f64) -> Result<Self, Error> {
-        let begin = |data: &mut Data| {
+        // Called from two places, and one copy of it in the library.
+        let begin: &dyn Fn(&mut Data) -> Result<Self, Error> = &|data| {
             let mut planner = controller::without_plan(structure, &data.parameters)?;
             planner.begin(&mut data.outputs)?;
             data.outputs.check(0.0).map(|()| Self(planner))
         };
-        begin(data).map_err(|error| blame::<Self>(structure, data, &|data| begin(data).map(|_| ()), error))
+        begin(data).map_err(|error| blame(structure, data, begin, error))
     }
 
     fn tune(&mut self, data: &Data) {

@@ -83,11 +83,12 @@ impl Model for PlantUnit {
     }
 
     fn initialize(structure: Structure, data: &mut Data, _start_time: f64) -> Result<Self, Error> {
-        let begin = |data: &mut Data| {
+        // Called from two places, and one copy of it in the library.
+        let begin: &dyn Fn(&mut Data) -> Result<Self, Error> = &|data| {
             let simulation = plant::new(structure, &data.parameters)?;
             simulation.initial_outputs(&mut data.outputs).map(|()| Self(simulation))
         };
-        begin(data).map_err(|error| blame::<Self>(structure, data, &|data| begin(data).map(|_| ()), error))
+        begin(data).map_err(|error| blame(structure, data, begin, error))
     }
 
     fn tune(&mut self, data: &Data) {
