@@ -5,8 +5,8 @@
 #![allow(clippy::unwrap_used, reason = "a benchmark that cannot start has nothing to say")]
 
 use divan::Bencher;
+use uam::defaults::default_parameters;
 use uam::parameters::{Discretization, Hold, Resolution};
-use uam::scenarios::default_parameters;
 use uam::{Parameters, Structure};
 
 mod motion;

@@ -8,9 +8,9 @@ use std::cell::RefCell;
 
 use divan::Bencher;
 use nalgebra::SVector;
+use uam::defaults::default_parameters;
 use uam::dynamics::Dynamics;
 use uam::parameters::{Actuation, Balance, BaseModel};
-use uam::scenarios::default_parameters;
 use uam::{Parameters, Structure};
 
 mod motion;

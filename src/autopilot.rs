@@ -28,6 +28,14 @@ pub struct Gains {
 
 memory!(Gains { kp, ki, kd });
 
+impl Gains {
+    /// Upper estimate of the fastest rate at which the law answers with this mass or inertia in its loop \[1/s\].
+    #[must_use]
+    pub fn rate_on(&self, inertia: f64) -> f64 {
+        (self.kd / inertia).max((self.kp / inertia).sqrt()).max((self.ki / inertia).cbrt())
+    }
+}
+
 /// Settings of the hover control.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Autopilot {

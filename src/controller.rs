@@ -207,8 +207,17 @@ impl Clone for Box<dyn Planner> {
     }
 }
 
-/// A controller to be given the memory of another one; each of the `parameters` is within its bounds
-/// ([`Parameters::check`]).
+/// Whether parameters are within their bounds, go together and are for methods that suit the arm and each other.
+///
+/// # Errors
+/// Names the first parameter for which this is not so, with what would be right.
+pub fn check(structure: Structure, parameters: &Parameters) -> Result<()> {
+    parameters.check(structure)?;
+    method::check(structure, parameters)
+}
+
+/// A controller with nothing planned, to begin or to be given the memory of another one; each of the `parameters` is
+/// within its bounds ([`Parameters::check`]).
 ///
 /// # Errors
 /// If parameters do not go together.
@@ -218,12 +227,12 @@ pub fn without_plan(structure: Structure, parameters: &Parameters) -> Result<Box
     for_coordinates!(structure, N => Ok(Box::new(Controller::<N>::new(structure, parameters)?)))
 }
 
-/// A controller at the start, with the first interval planned and the outputs written; each of the `parameters` is within
-/// its bounds ([`Parameters::check`]).
+/// A controller at the start, with the first interval planned and the outputs written.
 ///
 /// # Errors
-/// If parameters do not go together.
+/// As [`check`], or if there is no first plan.
 pub fn new(structure: Structure, parameters: &Parameters, outputs: &mut Outputs) -> Result<Box<dyn Planner>> {
+    parameters.check(structure)?;
     let mut planner = without_plan(structure, parameters)?;
     planner.begin(outputs)?;
     Ok(planner)

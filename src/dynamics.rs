@@ -17,6 +17,7 @@ mod moment;
 mod outboard;
 mod rates;
 mod runge_kutta;
+mod too_long;
 
 use std::ops::{Add, Sub};
 
@@ -29,7 +30,7 @@ pub use law::Node;
 pub use loads::{Load, Loads};
 pub use rates::Rates;
 
-use crate::autopilot::{Autopilot, AutopilotMode, Gains};
+use crate::autopilot::{Autopilot, AutopilotMode};
 use crate::bytes::{Memory, Tape};
 use crate::error::{Error, Result};
 use crate::memory;
@@ -393,13 +394,10 @@ impl<const N: usize> Dynamics<N> {
 
     /// Works out what follows from the kind of hover control and its gains.
     fn heed_autopilot(&mut self) {
-        let closed_loop = |gains: &Gains, inertia: f64| {
-            (gains.kd / inertia).max((gains.kp / inertia).sqrt()).max((gains.ki / inertia).cbrt())
-        };
         let Autopilot { mode, altitude, roll, sample_time } = &self.autopilot;
         self.continuous = !self.on_carriage() && *mode == AutopilotMode::Pid && *sample_time == 0.0;
         self.control_rate = if self.continuous {
-            closed_loop(altitude, self.vehicle.mass()).max(closed_loop(roll, self.vehicle.uav_inertia))
+            altitude.rate_on(self.vehicle.mass()).max(roll.rate_on(self.vehicle.uav_inertia))
         } else {
             0.0
         };

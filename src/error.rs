@@ -34,13 +34,27 @@ pub enum Error {
         /// The value, as text.
         found: String,
     },
+    /// A simulation that cannot begin, and could with another value of one parameter.
+    #[error("{name} = {found} makes a simulation impossible: {reason}; with {name} = {start} it could begin")]
+    Unsuited {
+        /// Public name of the parameter.
+        name: String,
+        /// Its value, as text.
+        found: String,
+        /// The value with which a simulation could begin.
+        start: String,
+        /// What goes wrong.
+        reason: Box<Error>,
+    },
     /// A step that would take for ever.
-    #[error("a step of {size:e} s is too long for these rates, gains, inertias and stiffnesses: at most {most:.1e} s")]
+    #[error("a step of {size:e} s is too long, at most {most:.1e} s: {cause}")]
     StepTooLong {
         /// The step \[s\].
         size: f64,
         /// The longest one \[s\].
         most: f64,
+        /// What is so fast that it takes short internal steps, by the names of its parameters.
+        cause: String,
     },
     /// The state of a simulation is no longer finite.
     #[error("the state is no longer finite after t = {time} s: {quantity} = {value}")]
@@ -70,7 +84,9 @@ impl Error {
     #[must_use]
     pub fn parameter(&self) -> Option<&str> {
         match self {
-            Self::OutOfBounds { name, .. } | Self::Inconsistent { name, .. } => Some(name),
+            Self::OutOfBounds { name, .. } | Self::Inconsistent { name, .. } | Self::Unsuited { name, .. } => {
+                Some(name)
+            }
             _ => None,
         }
     }

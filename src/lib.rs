@@ -13,6 +13,7 @@
 pub mod autopilot;
 pub mod bytes;
 pub mod controller;
+mod culprit;
 pub mod defaults;
 pub mod dynamics;
 pub mod error;

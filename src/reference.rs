@@ -183,7 +183,8 @@ impl Reference {
                 return Err(Error::Inconsistent {
                     name: format!("reference.leg[{}].ramp", j + 1),
                     expected: format!(
-                        "two ramps must fit into the leg's duration of {} s, and a smooth one takes time",
+                        "two ramps must fit into reference.leg[{}].duration = {:?}, and a smooth one takes time",
+                        j + 1,
                         leg.duration
                     ),
                     found: leg.ramp.to_string(),
@@ -191,6 +192,19 @@ impl Reference {
             }
         }
         Ok(())
+    }
+
+    /// When the motion comes to its end, from the start \[s\]; never for [`ReferenceKind::External`].
+    #[must_use]
+    pub fn end(&self) -> f64 {
+        let moves = |leg: &&Leg| leg.duration > 0.0 && (leg.dx != 0.0 || leg.dy != 0.0);
+        match self.kind {
+            ReferenceKind::Path => {
+                self.legs.iter().filter(moves).map(|leg| leg.start + leg.duration).fold(0.0, f64::max)
+            }
+            ReferenceKind::Circle => self.circle.duration,
+            ReferenceKind::External => f64::INFINITY,
+        }
     }
 
     /// The wanted motion at time `t` \[s\] from the start; at rest for [`ReferenceKind::External`].

@@ -7,6 +7,8 @@
 mod catalogue;
 mod error;
 mod reader;
+mod syntax;
+mod unknown;
 mod writer;
 
 pub use catalogue::{catalogue, find};

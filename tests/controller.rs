@@ -9,9 +9,9 @@ use common::coupling::Coupling;
 use nalgebra::Vector2;
 use uam::autopilot::AutopilotMode;
 use uam::controller::{self, Status};
+use uam::defaults::default_parameters;
 use uam::parameters::{Discretization, Resolution};
 use uam::reference::ReferenceKind;
-use uam::scenarios::default_parameters;
 use uam::{Parameters, Structure};
 
 const DEFAULT: Structure = Structure::DEFAULT;

@@ -11,9 +11,9 @@ use common::{assert_close, cases};
 use nalgebra::Vector2;
 use proptest::prelude::*;
 use uam::Structure;
+use uam::defaults::default_parameters;
 use uam::parameters::Balance;
 use uam::plant::Outputs;
-use uam::scenarios::default_parameters;
 
 fn hanging(links: usize) -> Run {
     let structure = Structure::new(links, Balance::None).unwrap();

@@ -9,9 +9,9 @@ use common::random::Random;
 use common::{assert_close, cases};
 use proptest::prelude::*;
 use uam::controller::Status;
+use uam::defaults::default_parameters;
 use uam::parameters::{Balance, BaseModel, Discretization, Resolution};
 use uam::reference::{Circle, ReferenceKind};
-use uam::scenarios::default_parameters;
 use uam::{Parameters, Structure};
 
 /// Three links with the payload on the ground, on a circle of 6 cm (thesis 3.6 and 3.7).

@@ -181,7 +181,7 @@ proptest! {
 fn the_models_differ_where_they_should() {
     let moments = |base_model: BaseModel| {
         [MomentModel::FixedBase, MomentModel::SlidingBase, MomentModel::FreeBase].map(|moment_model| {
-            let mut parameters = uam::scenarios::default_parameters(Structure::DEFAULT);
+            let mut parameters = uam::defaults::default_parameters(Structure::DEFAULT);
             parameters.ik.base_model = base_model;
             parameters.ik.moment_model = moment_model;
             parameters.ik.moment_damping = 0.0;

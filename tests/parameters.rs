@@ -2,8 +2,11 @@
 
 mod common;
 
+use uam::defaults::default_parameters;
+use uam::fmi2::{CommunicationStep, Identity, Instance, Model};
+use uam::interface::{controller::ControllerUnit, plant::PlantUnit};
 use uam::parameters::{Balance, MAX_LINKS, Resolution};
-use uam::scenarios::default_parameters;
+use uam::variables::{Bounds, Causality, Kind, Variable};
 use uam::{Error, Parameters, Structure, controller, plant};
 
 type Change = fn(&mut Parameters);
@@ -50,6 +53,138 @@ fn check_names_the_parameter_out_of_its_bounds() {
     }
     let ramps = changed(structure, |p| p.reference.legs[0].ramp = 0.8).check(structure).unwrap_err();
     assert!(matches!(&ramps, Error::Inconsistent { name, .. } if name == "reference.leg[1].ramp"), "{ramps}");
+}
+
+/// The real parameters of a structure: name, bounds, and the start values with another one for this.
+fn with_each_set_to(structure: Structure, value: f64) -> Vec<(String, Bounds, Parameters)> {
+    let changed = |variable: &Variable<Parameters>| {
+        let Kind::Real { at, bounds, .. } = variable.kind else { return None };
+        let mut parameters = default_parameters(structure);
+        *at(&mut parameters, variable.index) = value;
+        Some((variable.name.clone(), bounds, parameters))
+    };
+    Parameters::table(structure).variables().iter().filter_map(changed).collect()
+}
+
+/// Whoever makes a plant or a controller hears of any parameter out of its bounds, and of which one.
+#[test]
+fn both_constructors_name_every_parameter_out_of_its_bounds() {
+    for structure in Structure::all() {
+        for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -3.0, 0.0] {
+            for (name, bounds, parameters) in with_each_set_to(structure, value) {
+                if !bounds.admit(value) {
+                    let refusals = [plant::new(structure, &parameters).err(), new_controller(structure, &parameters)];
+                    for refusal in refusals {
+                        let said = refusal.map(|refusal| refusal.to_string());
+                        let expected = format!("{name} must be {bounds}, but is {value}");
+                        assert_eq!(said.as_deref(), Some(&*expected), "{structure}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The refusals of both units to begin, and to make a step of a millisecond.
+fn refusals(structure: Structure, parameters: &Parameters) -> Vec<String> {
+    fn refusal<M: Model<Structure = Structure, Error = Error>>(
+        structure: Structure,
+        parameters: &Parameters,
+    ) -> Option<Error>
+    where
+        M::Data: AsMut<Parameters>,
+    {
+        let mut data = M::start(structure);
+        data.as_mut().clone_from(parameters);
+        let step = CommunicationStep { start_time: 0.0, from: 0.0, size: 1e-3 };
+        M::initialize(structure, &mut data, 0.0).and_then(|mut model| model.step(&mut data, step)).err()
+    }
+    let both = [refusal::<ControllerUnit>(structure, parameters), refusal::<PlantUnit>(structure, parameters)];
+    both.into_iter().flatten().map(|error| error.to_string()).collect()
+}
+
+/// Whatever a number within its bounds brings about in the first plan, or makes so fast that no step can be made: it is
+/// the number that is named.
+#[test]
+fn whatever_goes_wrong_the_parameter_is_named() {
+    let mut seen = 0;
+    for structure in [Structure::DEFAULT, Structure::new(2, Balance::Counterweight).unwrap()] {
+        for value in [1e-300, 1e-9, 1e300, -1e300] {
+            for (name, bounds, parameters) in with_each_set_to(structure, value) {
+                for refusal in refusals(structure, &parameters) {
+                    // Once it runs, what overflows follows from many numbers.
+                    let named =
+                        refusal.contains(&name) || refusal.starts_with("the state is no longer finite after t = 0.001");
+                    assert!(!bounds.admit(value) || named, "{name} = {value:e}: {refusal}");
+                    seen += 1;
+                }
+            }
+        }
+    }
+    assert!(seen > 50, "{seen}");
+}
+
+/// What a host hears that sets every parameter to what it cannot be: at once, and by name; and what it hears of values
+/// that are refused together, when it asks for outputs.
+#[test]
+fn hosts_hear_which_parameter_it_is() {
+    fn host<M: Model<Structure = Structure>>() -> impl Fn(&str, f64) -> String {
+        |name: &str, value: f64| {
+            let mut instance = Instance::<M>::new(Identity::of(Structure::DEFAULT));
+            let position = |name: &str| M::table(Structure::DEFAULT).variables().iter().position(|v| v.name == name);
+            let output = M::table(Structure::DEFAULT).variables().iter().position(|v| v.causality == Causality::Output);
+            let [parameter, output] = [position(name), output].map(|place| u32::try_from(place.unwrap()).unwrap());
+            let set = instance.set(&[parameter], &[value]);
+            set.and_then(|()| instance.get(&[output], &mut [0.0])).unwrap_err().to_string()
+        }
+    }
+    let (controller, plant) = (host::<ControllerUnit>(), host::<PlantUnit>());
+    for (host, table) in [
+        (
+            &controller as &dyn Fn(&str, f64) -> String,
+            ControllerUnit::table(Structure::DEFAULT).variables().iter().map(named).collect::<Vec<_>>(),
+        ),
+        (&plant, PlantUnit::table(Structure::DEFAULT).variables().iter().map(named).collect()),
+    ] {
+        for (name, _) in table.iter().filter(|(_, causality)| *causality == Causality::Parameter) {
+            let said = host(name, f64::NAN);
+            assert!(said.starts_with(&format!("{name} must be ")) && said.ends_with("but is NaN"), "{said}");
+        }
+    }
+    for (name, value) in [("uav.inertia", 1e-9), ("sample_time", 1e5), ("ik.path_axes", 2.0), ("link[1].length", 1e300)]
+    {
+        let said = controller(name, value);
+        assert!(said.starts_with(&format!("the simulation cannot begin: {name} = ")), "{said}");
+    }
+}
+
+fn named<D>(variable: &Variable<D>) -> (String, Causality) {
+    (variable.name.clone(), variable.causality)
+}
+
+/// A method that does not suit the arm, or the other methods, is named by both units' checks.
+#[test]
+fn methods_that_do_not_go_together_are_named() {
+    let mut refused = Vec::new();
+    for structure in Structure::all() {
+        for variable in Parameters::table(structure).variables() {
+            let Kind::Enumeration { at } = variable.kind else { continue };
+            let mut parameters = default_parameters(structure);
+            for number in 1..=at(&mut parameters, variable.index).items().len() {
+                at(&mut parameters, variable.index).choose(i32::try_from(number).unwrap());
+                for refusal in refusals(structure, &parameters) {
+                    // What does not suit a resolution is named together with it.
+                    assert!(refusal.contains(&variable.name) || refusal.contains("with the resolution"), "{refusal}");
+                    refused.push(variable.name.clone());
+                }
+            }
+        }
+    }
+    refused.dedup();
+    assert!(
+        ["ik.resolution", "ik.path_axes"].iter().all(|name| refused.iter().any(|other| other == name)),
+        "{refused:?}"
+    );
 }
 
 /// What the structure does not have is not looked at.

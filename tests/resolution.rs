@@ -137,7 +137,11 @@ proptest! {
 fn the_stretched_arm_gives_up_what_it_cannot_do() {
     let path = SMatrix::<f64, 2, 2>::from_columns(&[vec2(0.26, 0.0), vec2(0.13, 0.0)]);
     let moment = Task { row: SVector::zeros(), value: 0.0 };
-    let found = Problem { path, velocity: vec2(0.1, 0.1), interval: 1e-3, caution: 0.0, moment }.resolve(PathAxes::Both, false, 0.26);
+    let found = Problem { path, velocity: vec2(0.1, 0.1), interval: 1e-3, caution: 0.0, moment }.resolve(
+        PathAxes::Both,
+        false,
+        0.26,
+    );
     let factor = 0.1 / (0.26_f64.powi(2) + 0.13_f64.powi(2));
     assert_close(found.rate.as_slice(), &[0.26 * factor, 0.13 * factor], 1e-14, "rate");
     assert!(found.path_damped && found.min_singular_value == 0.0);
@@ -158,7 +162,8 @@ fn a_nearly_stretched_arm_is_drawn_out_without_swinging() {
             let path = SMatrix::<f64, 2, 2>::from_columns(&[vec2(-tip.y, tip.x), vec2(-l * cos, l * sin)]);
             let velocity = tip.normalize() * 0.2;
             let moment = Task { row: SVector::zeros(), value: 0.0 };
-            let found = Problem { path, velocity, interval, caution: 0.0, moment }.resolve(PathAxes::Both, false, 2.0 * l);
+            let found =
+                Problem { path, velocity, interval, caution: 0.0, moment }.resolve(PathAxes::Both, false, 2.0 * l);
             // In these axes the second rate unbends the arm if it is positive.
             let next = bend - found.rate[1] * interval;
             assert!(next.abs() < bend.abs() + 1e-12, "bend {bend} to {next} in step {step} of {interval} s");

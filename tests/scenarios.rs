@@ -3,8 +3,11 @@
 #![allow(clippy::unwrap_used)] // in helpers, too
 
 use proptest::prelude::*;
+use uam::fmi2::Model;
+use uam::interface::{controller::ControllerUnit, plant::PlantUnit};
 use uam::parameters::Balance;
 use uam::scenarios::{Error, Extent, Scenario, catalogue, default_parameters, find};
+use uam::variables::Causality;
 use uam::{Parameters, Structure};
 
 const SMALL: &str = r#"id = "mine"
@@ -78,7 +81,11 @@ fn what_is_not_understood_is_refused_with_its_line() {
         (3, "duration = 1e-6", "line 3: `duration` must be"),
         (3, "duration = 5\nstep = 7.0", "line 4: `step` must be a number of seconds above 0, at most the duration"),
         (3, "duration = 5\ngravity = 1", "line 4: unknown key `gravity`; did you mean `parameters.gravity`?"),
-        (3, "duration = 5\nbased_on = '4.3x'", "line 4: there is no scenario `4.3x`; did you mean `4.3"),
+        (
+            3,
+            "duration = 5\nbased_on = '4.3x'",
+            "line 4: `based_on` must be the name of a scenario of the catalogue, but there is no `4.3x`; did you mean `4.3",
+        ),
         (3, "duration = 5\nbased_on = '4.3a'", "line 6: `structure.links` must be that of the scenario"),
         (5, "links = 7", "line 5: `structure.links` must be a whole number from 1 to 6, but is 7"),
         (5, "links = 2.0", "line 5: `structure.links` must be a whole number"),
@@ -102,8 +109,30 @@ fn what_is_not_understood_is_refused_with_its_line() {
         ),
         (7, "payload = 1.0", "line 7: a vehicle with 2 links has no parameter `payload`"),
         (7, "payload.mass = 0.1\n\"payload.mass\" = 0.2", "line 8: `parameters.payload.mass` stands in line 7 already"),
-        (7, "payload.mass = 0.1\npayload.mass = 0.2", "line 8: "),
+        (7, "payload.mass = 0.1\npayload.mass = 0.2", "line 8: `parameters.payload.mass` stands in line 7 already"),
+        (2, "title = 'A'\n id = 'again'", "line 3: `id` stands in line 1 already"),
+        (7, "payload = { mass = 0.1, mass = 0.2 }", "line 7: duplicate key, in `payload = { mass = 0.1, mass = 0.2 }`"),
+        (6, "[parameters]\n[structure]", "line 7: duplicate key, in `[structure]`"),
         (7, "payload.mass = ", "line 7: "),
+        (7, "payload.mass = NaN", "line 7: invalid float, expected `nan`, in `payload.mass = NaN`"),
+        (7, "link[1].mass = 2.0", "line 7: names with brackets need quotes: `\"link[1].mass\" = 2.0`"),
+        (7, "  reference.leg[2].dx=1 # m", "line 7: names with brackets need quotes: `\"reference.leg[2].dx\"=1 # m`"),
+        (
+            6,
+            "[parameters.joint[1]]\nstart = 1.0",
+            "line 6: names with brackets need quotes: `[\"parameters.joint[1]\"]`",
+        ),
+        (1, "id = \"a\u{7}b\"", "line 1: "),
+        (
+            2,
+            "title = 'A'\nbased_on = 'mine.toml'",
+            "line 3: `based_on` must be the name of a scenario of the catalogue",
+        ),
+        (
+            2,
+            "title = \"A\\u0007\"",
+            "line 2: `title` must be one line on what happens, in quotes, without control characters",
+        ),
         (
             9,
             "ik.discretization = 'rk4'",
@@ -116,6 +145,73 @@ fn what_is_not_understood_is_refused_with_its_line() {
         let found = changed(line, text);
         assert!(found.starts_with(expected), "{text}: {found}");
     }
+}
+
+/// Corrected as the message says, the file is read.
+#[test]
+fn the_correction_of_a_name_without_quotes_is_right() {
+    for line in ["link[2].mass = 2.0", "parameters.link[2].mass = 2.0", "[parameters.link[2]]\nmass = 2.0"] {
+        let text = format!("id = 'a'\nbased_on = '4.3b'\n{line}");
+        let refused = refusal(&text);
+        let Some((_, correct)) = refused.split_once("need quotes: `") else { panic!("{refused}") };
+        let correct = text.replace(line.lines().next().unwrap(), correct.trim_end_matches('`'));
+        match Scenario::read(&correct) {
+            Ok(scenario) => assert_eq!(scenario.parameters.links[1].mass, 2.0, "{correct}"),
+            // Outside the table of parameters, the next message says where it belongs.
+            Err(error) => assert!(error.to_string().contains("did you mean `parameters.link[2].mass`"), "{error}"),
+        }
+    }
+}
+
+/// Whoever bases a scenario on one that there is not learns which there are.
+#[test]
+fn a_base_that_does_not_exist_is_answered_with_those_that_do() {
+    let refused = refusal("id = 'a'\nbased_on = 'hover'");
+    for scenario in catalogue().unwrap() {
+        assert!(refused.contains(&format!("`{}`", scenario.id)), "{refused}");
+    }
+}
+
+/// Every variable of the units that is no parameter is called what it is; an input with the way to drive it.
+#[test]
+fn variables_that_are_no_parameters_are_called_what_they_are() {
+    let structure = find("4.3b").unwrap().structure;
+    let tables = [
+        ControllerUnit::table(structure).variables().iter().map(|v| (v.name.clone(), v.causality)).collect::<Vec<_>>(),
+        PlantUnit::table(structure).variables().iter().map(|v| (v.name.clone(), v.causality)).collect(),
+    ];
+    let inputs: Vec<_> = tables.iter().flatten().filter(|(_, causality)| *causality == Causality::Input).collect();
+    for (name, causality) in tables.iter().flatten().filter(|(_, causality)| *causality != Causality::Parameter) {
+        for place in ["parameters.", ""] {
+            let refused = refusal(&format!("id = 'a'\nbased_on = '4.3b'\n{place}\"{name}\" = 1.0"));
+            let is_input = *causality == Causality::Input || inputs.iter().any(|(input, _)| input == name);
+            let role = if is_input { "is an input of uam_" } else { "is an output of uam_" };
+            assert!(refused.starts_with(&format!("line 3: `{name}` {role}")), "{name}: {refused}");
+            assert_eq!(is_input, refused.contains("hosts set it between steps, or connect"), "{refused}");
+        }
+    }
+    let refused = find("4.3b").unwrap().with([("external_reference.vx", "1")]).unwrap_err().to_string();
+    assert!(refused.contains("it acts with reference.kind = \"external\""), "{refused}");
+}
+
+/// What is no number at all is refused under the name that was given, for every parameter.
+#[test]
+fn numbers_that_are_none_are_refused_by_name() {
+    let known = find("4.4b").unwrap();
+    for variable in Parameters::table(known.structure).variables() {
+        for value in ["nan", "NaN", "-nan", "inf", "-inf", "infinity", "1e999"] {
+            let refused = known.with([(variable.name.as_str(), value)]).unwrap_err().to_string();
+            assert!(refused.starts_with(&format!("`{}` must be ", variable.name)), "{value}: {refused}");
+        }
+    }
+}
+
+#[test]
+fn methods_that_do_not_go_together_are_refused_with_their_line() {
+    let refused = refusal("id = 'a'\nbased_on = '4.3b'\nparameters.ik.path_axes = 'horizontal'");
+    assert!(refused.starts_with("line 3: ik.path_axes = horizontal does not go together"), "{refused}");
+    let refused = refusal("id = 'a'\nbased_on = '4.3b'\nparameters.ik.resolution = 'acceleration_level'");
+    assert!(refused.contains("ik.hold = zero_order") && refused.contains("acceleration_level"), "{refused}");
 }
 
 #[test]
@@ -168,11 +264,19 @@ proptest! {
         let _ = Scenario::read(&text);
     }
 
+    /// A title is one line, and can stand in any document.
     #[test]
-    fn any_title_survives(title in "\\PC*|[\\x00-\\x7f]*") {
+    fn any_title_survives_or_is_refused_for_its_control_characters(title in "\\PC*|[\\x00-\\x9f\u{fffe}\u{ffff}]*") {
         let mut scenario = find("4.3b").unwrap();
-        scenario.title = title;
-        prop_assert_eq!(Scenario::read(&scenario.write(Extent::Changes)).unwrap(), scenario);
+        scenario.title = title.clone();
+        let text = scenario.write(Extent::Changes);
+        if title.contains(|c: char| c.is_control() || c == '\u{fffe}' || c == '\u{ffff}') {
+            let refused = Scenario::read(&text).unwrap_err().to_string();
+            prop_assert!(refused.contains("`title` must be one line on what happens"), "{}", refused);
+            prop_assert!(!refused.contains(char::is_control), "{:?}", refused);
+        } else {
+            prop_assert_eq!(Scenario::read(&text).unwrap(), scenario);
+        }
     }
 }
 

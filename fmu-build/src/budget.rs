@@ -7,7 +7,7 @@ use uam::scenarios::Scenario;
 use crate::claims::peak;
 use crate::coupling::{Coupling, Error, Order, Pair, Schedule};
 use crate::fmu::Value;
-use crate::record::{Names, Recording};
+use crate::record::{Names, NotRecorded, Recording};
 use crate::run::run_prepared;
 
 mod order;
@@ -140,7 +140,7 @@ impl Variant {
         }
         let run = run_prepared(coupling, scenario, &schedule, self.order, &names(), progress)?;
         match run.stopped {
-            None => Ok(Errors::of(&run.recording)),
+            None => Ok(Errors::of(&run.recording)?),
             Some(stopped) => Err(stopped),
         }
     }
@@ -163,9 +163,9 @@ pub struct Errors {
 }
 
 impl Errors {
-    fn of(recording: &Recording) -> Self {
-        let largest = |found, wanted| peak(recording.distance(found, wanted));
-        Self { end_effector: largest("end_effector", "reference"), base: largest("base", "predicted.base") }
+    fn of(recording: &Recording) -> Result<Self, NotRecorded> {
+        let largest = |found, wanted| recording.distance(found, wanted).map(peak);
+        Ok(Self { end_effector: largest("end_effector", "reference")?, base: largest("base", "predicted.base")? })
     }
 }
 

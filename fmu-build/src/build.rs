@@ -9,6 +9,7 @@ use crate::cross::Toolchain;
 use crate::description::model_description;
 use crate::design::Design;
 use crate::error::Result;
+use crate::files::Written;
 use crate::package::fmu;
 use crate::platform::Platform;
 use crate::ssp::{Component, ssp};
@@ -44,6 +45,8 @@ pub struct Built {
     pub plant: PathBuf,
     /// Both, connected.
     pub ssp: PathBuf,
+    /// All three, in this order.
+    pub files: [Written; 3],
 }
 
 /// Compiles both units and writes the two FMUs and the SSP.
@@ -78,24 +81,26 @@ pub fn build(options: &BuildOptions, progress: &dyn Fn(&str)) -> Result<Built> {
     let write = |name: &str, content: &[u8]| {
         let path = options.folder.join(name);
         progress(&format!("Writing {}", path.display()));
-        files::write(&path, content).map(|()| path)
+        files::write(&path, content)
     };
-    Ok(Built {
-        controller: write(&controller.interface.file_name(), &controller_fmu)?,
-        plant: write(&plant.interface.file_name(), &plant_fmu)?,
-        ssp: write(SSP_NAME, &system.to_bytes(SSP_NAME)?)?,
-    })
+    let files = [
+        write(&controller.interface.file_name(), &controller_fmu)?,
+        write(&plant.interface.file_name(), &plant_fmu)?,
+        write(SSP_NAME, &system.to_bytes(SSP_NAME)?)?,
+    ];
+    let [controller, plant, ssp] = files.each_ref().map(|file| file.path.clone());
+    Ok(Built { controller, plant, ssp, files })
 }
 
 /// Writes the model descriptions of the default structure, `uam_controller.xml` and `uam_plant.xml`.
 ///
 /// # Errors
 /// If a file cannot be written.
-pub fn write_descriptions(folder: &Path) -> Result<()> {
+pub fn write_descriptions(folder: &Path) -> Result<Vec<Written>> {
     files::create_folder(folder)?;
-    for unit in Unit::pair(Structure::DEFAULT) {
+    let write = |unit: Unit| {
         let path = folder.join(format!("{}.xml", unit.interface.identifier));
-        files::write(&path, model_description(&unit.interface)?.as_bytes())?;
-    }
-    Ok(())
+        files::write(&path, model_description(&unit.interface)?.as_bytes())
+    };
+    Unit::pair(Structure::DEFAULT).into_iter().map(write).collect()
 }

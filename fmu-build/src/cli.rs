@@ -54,12 +54,13 @@ pub enum Command {
     Build(BuildArguments),
     /// Run one simulation and write its csv and its report
     ///
-    /// Builds the FMUs that the simulation needs, couples them with a fixed-step master, and writes
-    /// <SCENARIO>.csv with every communication point and <SCENARIO>.html with figures.
+    /// Couples FMUs of the simulation's structure with a fixed-step master, and writes <SCENARIO>.csv with every
+    /// communication point and <SCENARIO>.html with figures. The FMUs are built for this run; those in the folder stay as
+    /// they are.
     Simulate(SimulateArguments),
     /// Run every simulation of the thesis and print what it says beside what comes out
     ///
-    /// Each runs with both discretizations. Builds the FMUs that this needs.
+    /// Each runs with both discretizations. Nothing is written.
     Thesis(PrintArguments),
     /// Run a simulation with some numbers changed, and print what depends on them
     ///
@@ -207,7 +208,7 @@ pub struct VaryArguments {
     pub scenario: String,
     /// A name and its values, for instance autopilot.roll.kd=3,6,9
     ///
-    /// A parameter (`[*]` instead of `[1]`: that of every joint), `duration`, `step`, `pace` (all times of path and
+    /// A parameter (`[*]` instead of `[1]`: that of every link, joint or leg), `duration`, `step`, `pace` (all times of path and
     /// grasp are divided by it) or `size` (all ways of the path are multiplied by it).
     #[arg(value_name = "NAME=VALUES", required = true, value_parser = change)]
     pub changes: Vec<Change>,

@@ -1,11 +1,11 @@
 //! What the commands do.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use anyhow::{Context, Result};
 use fmu_build::claims::DISCRETIZATIONS;
-use fmu_build::coupling::Pair;
+use fmu_build::coupling::{self, Pair};
 use fmu_build::run::Run;
 use fmu_build::study::Summary;
 use fmu_build::{BuildOptions, Built, workspace};
@@ -14,6 +14,7 @@ use uam::Structure;
 use uam::scenarios::{self, Extent, Scenario};
 
 use crate::cli::{Arguments, Command};
+use crate::terminal::{say, wrote};
 
 mod budget;
 mod build;
@@ -31,28 +32,19 @@ pub fn execute(arguments: &Arguments) -> Result<()> {
         None => pick_up::execute(out),
         Some(Command::Build(arguments)) => build::execute(arguments, out),
         Some(Command::Simulate(simulation)) => simulate::execute(simulation, out),
-        Some(Command::Thesis(arguments)) => thesis::execute(arguments, out),
-        Some(Command::Vary(arguments)) => vary::execute(arguments, out),
+        Some(Command::Thesis(arguments)) => thesis::execute(arguments),
+        Some(Command::Vary(arguments)) => vary::execute(arguments),
         Some(Command::Reach(arguments)) => reach::execute(arguments, out),
         Some(Command::Budget(arguments)) => budget::execute(arguments, out),
-        Some(Command::List) => {
-            for scenario in scenarios::catalogue()? {
-                println!("{:<24} {}", scenario.id, scenario.title);
-            }
-            Ok(())
-        }
+        Some(Command::List) => scenarios::catalogue()?
+            .iter()
+            .try_for_each(|scenario| say(format_args!("{:<24} {}", scenario.id, scenario.title))),
         Some(Command::Show(show)) => {
             let extent = if show.all { Extent::Everything } else { Extent::Changes };
-            print!("{}", scenario(&show.scenario)?.write(extent));
-            Ok(())
+            say(scenario(&show.scenario)?.write(extent).trim_end())
         }
-        Some(Command::Export(export)) => export::execute(&scenario(&export.scenario)?, out),
-        Some(Command::Describe) => {
-            let folder = workspace::root()?.join("modelDescription");
-            fmu_build::write_descriptions(&folder)?;
-            wrote(&[folder.join("uam_controller.xml"), folder.join("uam_plant.xml")]);
-            Ok(())
-        }
+        Some(Command::Export(export)) => export::execute(&export.scenario, out),
+        Some(Command::Describe) => wrote(&fmu_build::write_descriptions(&workspace::root()?.join("modelDescription"))?),
     }
 }
 
@@ -66,11 +58,6 @@ fn scenario(name_or_file: &str) -> Result<Scenario> {
     Scenario::read(&text).with_context(|| name_or_file.to_owned())
 }
 
-/// Builds the FMUs of a structure for this machine into a folder.
-fn build_here(structure: Structure, folder: &Path) -> Result<Built> {
-    build_files(&BuildOptions::new(structure, folder))
-}
-
 /// Builds FMUs and says on the terminal how far it is.
 fn build_files(options: &BuildOptions) -> Result<Built> {
     let spinner = ProgressBar::new_spinner();
@@ -80,27 +67,14 @@ fn build_files(options: &BuildOptions) -> Result<Built> {
     built.with_context(|| format!("cannot build the FMUs for {}", options.design.structure))
 }
 
-/// Where the FMUs of a structure go: all have the same file names, so other structures than the default get a
-/// folder of their own.
-fn folder(out: &Path, structure: Structure) -> PathBuf {
-    if structure == Structure::DEFAULT { out.to_owned() } else { out.join(structure.to_string().replace(' ', "-")) }
-}
-
-/// Says where files are.
-fn wrote(files: &[PathBuf]) {
-    println!("Written:");
-    for file in files {
-        println!("  {}", file.display());
-    }
-}
-
 /// Says which runs stopped early, and why.
-fn complain(summaries: &[Summary]) {
+fn complain(summaries: &[Summary]) -> Result<()> {
     for Summary { scenario, outcomes } in summaries {
         for complaint in outcomes.iter().filter_map(|outcome| outcome.complaint.as_ref()) {
-            println!("{}: {complaint}", scenario.id);
+            say(format_args!("{}: {complaint}", scenario.id))?;
         }
     }
+    Ok(())
 }
 
 /// How fast runs were.
@@ -110,25 +84,30 @@ fn speed(runs: &[&Run]) -> String {
     format!("{simulated:.0} s simulated in {elapsed:.2} s: {:.0} times faster than real time.", simulated / elapsed)
 }
 
-/// The FMUs of several structures.
+/// The FMUs of several structures, with the start values of the library.
 struct Pairs(Vec<(Structure, Pair)>);
 
 impl Pairs {
     /// Builds those of each structure once, and loads them.
-    fn build(out: &Path, structures: impl IntoIterator<Item = Structure>) -> Result<Self> {
+    ///
+    /// They are in a folder of their own, which is gone afterwards: what is in the user's folder may be other FMUs,
+    /// of a vehicle of their own for instance.
+    fn build(structures: impl IntoIterator<Item = Structure>) -> Result<Self> {
         let mut pairs: Vec<(Structure, Pair)> = Vec::new();
         for structure in structures {
             if pairs.iter().all(|(built, _)| *built != structure) {
-                let built = build_here(structure, &folder(out, structure))?;
+                let folder = tempfile::tempdir().context("cannot make a temporary folder")?;
+                let built = build_files(&BuildOptions::new(structure, folder.path()))?;
                 pairs.push((structure, Pair::open(&built.controller, &built.plant)?));
             }
         }
         Ok(Self(pairs))
     }
 
-    /// The pair of a structure, if it was built.
-    fn of(&self, structure: Structure) -> Option<&Pair> {
-        self.0.iter().find(|(built, _)| *built == structure).map(|(_, pair)| pair)
+    /// The pair of a structure.
+    fn of(&self, structure: Structure) -> Result<&Pair, coupling::Error> {
+        let built = self.0.iter().find(|(built, _)| *built == structure);
+        built.map(|(_, pair)| pair).ok_or(coupling::Error::NotBuilt { structure })
     }
 }
 

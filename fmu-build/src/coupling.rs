@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use crate::fmu::{self, Causality, Description, Fmu, Instance, Selection, Values};
+use crate::record::NotRecorded;
 use crate::settings;
 
 mod schedule;
@@ -35,9 +36,18 @@ pub enum Error {
         /// What the unit says.
         source: fmu::Error,
     },
-    /// A worker that was lost.
-    #[error("a run gave no result")]
-    Empty,
+    /// A structure whose FMUs nobody has built.
+    #[error("the FMUs for {structure} were not built")]
+    NotBuilt {
+        /// The structure.
+        structure: uam::Structure,
+    },
+    /// Parameters with which a run makes no sense.
+    #[error(transparent)]
+    Parameters(#[from] uam::Error),
+    /// What a run should have recorded.
+    #[error(transparent)]
+    NotRecorded(#[from] NotRecorded),
     /// A schedule that makes no sense.
     #[error("{name} must be {expected}, but is {found}")]
     Schedule {

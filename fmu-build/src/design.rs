@@ -36,6 +36,26 @@ impl Experiment {
     pub const PICK_UP: Self = Self { stop_time: defaults::PICK_UP_DURATION, step_size: defaults::THESIS_STEP };
 }
 
+/// Whether a simulation can begin with these parameters.
+///
+/// # Errors
+/// If one is out of its bounds, or they do not go together.
+pub fn check(structure: Structure, parameters: &Parameters) -> uam::Result<()> {
+    fn begin<M: Model<Structure = Structure, Error = uam::Error>>(
+        structure: Structure,
+        parameters: &Parameters,
+    ) -> uam::Result<()>
+    where
+        M::Data: AsMut<Parameters>,
+    {
+        let mut data = M::start(structure);
+        data.as_mut().clone_from(parameters);
+        M::initialize(structure, &mut data, 0.0).map(|_| ())
+    }
+    begin::<PlantUnit>(structure, parameters)?;
+    begin::<ControllerUnit>(structure, parameters)
+}
+
 impl From<Structure> for Design {
     fn from(structure: Structure) -> Self {
         Self {
@@ -60,11 +80,9 @@ impl Design {
     /// Whether a simulation can begin with these start values.
     ///
     /// # Errors
-    /// If one is out of its bounds, or they do not go together.
+    /// As [`check`].
     pub fn check(&self) -> uam::Result<()> {
-        PlantUnit::initialize(self.structure, &mut self.unit::<PlantUnit>().start, 0.0)?;
-        ControllerUnit::initialize(self.structure, &mut self.unit::<ControllerUnit>().start, 0.0)?;
-        Ok(())
+        check(self.structure, &self.parameters)
     }
 
     /// One of the two units.

@@ -18,7 +18,7 @@ pub mod description;
 pub mod design;
 pub mod documentation;
 pub mod error;
-mod files;
+pub mod files;
 pub mod fmu;
 mod html;
 pub mod interface;

@@ -1,35 +1,39 @@
 //! The program behind `cargo run`: builds both FMUs, couples them, and shows what happened.
 
+// They panic where nothing can be written.
+#![deny(clippy::print_stdout, clippy::print_stderr)]
+
+use std::io::{self, ErrorKind, Write};
 use std::process::ExitCode;
 
 use clap::Parser;
 
 mod cli;
 mod commands;
+mod terminal;
 
 fn main() -> ExitCode {
-    #[cfg(unix)]
-    end_with_the_reader();
     let arguments = match cli::Arguments::try_parse() {
         Ok(arguments) => arguments,
-        Err(refusal) => {
-            // Help and version are answers, not mistakes. If they cannot be printed, nobody is listening.
+        Err(refusal) if refusal.use_stderr() => {
+            // If it cannot be printed, there is nobody to tell.
             let _ = refusal.print();
-            return if refusal.use_stderr() { ExitCode::FAILURE } else { ExitCode::SUCCESS };
+            return ExitCode::FAILURE;
         }
+        // Help and version are answers, not mistakes.
+        Err(answer) => return exit(terminal::say(answer.render().ansi().to_string().trim_end())),
     };
-    match commands::execute(&arguments) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("error: {error:#}");
-            ExitCode::FAILURE
-        }
-    }
+    exit(commands::execute(&arguments))
 }
 
-/// Whoever reads no further, for instance `head`, ends the program without an error.
-#[cfg(unix)]
-fn end_with_the_reader() {
-    // SAFETY: no thread runs yet, and nothing in this program handles the signal.
-    unsafe { libc::signal(libc::SIGPIPE, libc::SIG_DFL) };
+/// What the program answers to whoever started it. Who reads no further, for instance `head`, gets no error.
+fn exit(outcome: anyhow::Result<()>) -> ExitCode {
+    let Err(error) = outcome else { return ExitCode::SUCCESS };
+    let reads_no_further = |cause: &io::Error| cause.kind() == ErrorKind::BrokenPipe;
+    if error.chain().filter_map(|cause| cause.downcast_ref()).any(reads_no_further) {
+        return ExitCode::SUCCESS;
+    }
+    // Likewise.
+    let _ = writeln!(io::stderr(), "error: {error:#}");
+    ExitCode::FAILURE
 }

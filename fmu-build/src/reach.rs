@@ -5,7 +5,9 @@
 //! where the equations of the path and the bounds contradict each other, and its program finds no solution. An error of
 //! the end effector is no measure of that: the thesis' own step has one on any path.
 
+use uam::options::Choice;
 use uam::parameters::Discretization;
+use uam::reference::{Reference, ReferenceKind};
 use uam::scenarios::Scenario;
 
 use crate::claims::Quantity;
@@ -62,10 +64,11 @@ impl Trial {
     /// # Errors
     /// If the run cannot be started.
     pub fn run(pair: &Pair, scenario: &Scenario, discretization: Discretization, way: f64) -> Result<Self, Error> {
-        let run = run_with(pair, &enlarged(scenario, way), discretization, &|| {})?;
-        let never = Quantity::GivesWayAt.measure(&run.recording) == f64::INFINITY;
-        // A run that stopped early did not follow.
-        Ok(Self { way, followed: run.stopped.is_none() && never, moment: Quantity::Moment.measure(&run.recording) })
+        let run = run_with(pair, &enlarged(scenario, way)?, discretization, &|| {})?;
+        let never = Quantity::GivesWayAt.measure(&run.recording)? == f64::INFINITY;
+        // A run that stopped early, or that ends on the way, did not follow.
+        let followed = run.stopped.is_none() && never && comes_to_its_end(scenario);
+        Ok(Self { way, followed, moment: Quantity::Moment.measure(&run.recording)? })
     }
 
     fn balanced(&self) -> bool {
@@ -84,15 +87,38 @@ pub struct Reach {
     pub trials: Vec<Trial>,
 }
 
-/// The scenario with all its ways along x in proportion, such that the first leg goes `way` to the right \[m\].
+/// Whether the wanted motion comes to its end while it is simulated.
 #[must_use]
-pub fn enlarged(scenario: &Scenario, way: f64) -> Scenario {
+pub fn comes_to_its_end(scenario: &Scenario) -> bool {
+    // Rounding of sums of times does not count.
+    scenario.parameters.reference.end() <= scenario.duration * (1.0 + 1e-9)
+}
+
+/// The scenario with all its ways along x in proportion, such that the first leg goes `way` to the right \[m\].
+///
+/// # Errors
+/// If its motion is no path whose first leg goes along x.
+pub fn enlarged(scenario: &Scenario, way: f64) -> uam::Result<Scenario> {
     let mut scenario = scenario.clone();
-    let factor = way / scenario.parameters.reference.legs[0].dx;
-    for leg in &mut scenario.parameters.reference.legs {
+    let Reference { kind, legs, .. } = &mut scenario.parameters.reference;
+    let refused = |name: &str, expected: &str, found: String| {
+        let expected = format!("{expected}, for the motion is enlarged in proportion to its first leg's way along x");
+        Err(uam::Error::Inconsistent { name: name.to_owned(), expected, found })
+    };
+    if *kind != ReferenceKind::Path {
+        return refused("reference.kind", "path", kind.name().to_owned());
+    }
+    if legs[0].duration == 0.0 {
+        return refused("reference.leg[1].duration", "a time above 0", legs[0].duration.to_string());
+    }
+    let factor = way / legs[0].dx;
+    if !factor.is_finite() {
+        return refused("reference.leg[1].dx", "another number than 0", legs[0].dx.to_string());
+    }
+    for leg in legs {
         leg.dx *= factor;
     }
-    scenario
+    Ok(scenario)
 }
 
 /// Enlarges a motion by [`STRIDE`] until it cannot be followed, then halves the strides at both edges down to
@@ -153,7 +179,7 @@ mod tests {
     #[test]
     fn enlarging_keeps_the_proportions() {
         let scenario = uam::scenarios::find("4.4a").unwrap();
-        let legs = enlarged(&scenario, 0.2).parameters.reference.legs;
+        let legs = enlarged(&scenario, 0.2).unwrap().parameters.reference.legs;
         assert!((legs[0].dx - 0.2).abs() < 1e-15 && (legs.iter().map(|leg| leg.dx).sum::<f64>()).abs() < 1e-15);
         assert_eq!(legs[0].dy, -0.05);
     }

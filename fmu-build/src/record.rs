@@ -1,9 +1,11 @@
 //! What is kept of a run: named columns, one row per communication point.
 
+use std::io::Write;
 use std::path::Path;
 
 use uam::Structure;
 
+use crate::files::{self, Written};
 use crate::fmu::{self, Causality, Description, Instance, Selection, Values};
 
 /// Name of the column with the communication points.
@@ -59,6 +61,14 @@ impl Names {
     }
 }
 
+/// A column that a recording does not have.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("`{name}` was not recorded")]
+pub struct NotRecorded {
+    /// The name asked for.
+    pub name: String,
+}
+
 /// Named columns of equal length.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Recording {
@@ -91,16 +101,19 @@ impl Recording {
         self.columns.iter().map(|column| column.name.as_str())
     }
 
-    /// A column; empty if there is none of this name.
-    #[must_use]
-    pub fn column(&self, name: &str) -> &[f64] {
-        self.columns.iter().find(|column| column.name == name).map_or(&[], |column| &column.values)
+    /// A column.
+    ///
+    /// # Errors
+    /// If there is none of this name.
+    pub fn column(&self, name: &str) -> Result<&[f64], NotRecorded> {
+        let column = self.columns.iter().find(|column| column.name == name);
+        column.map(|column| &column.values[..]).ok_or_else(|| NotRecorded { name: name.to_owned() })
     }
 
     /// Communication points \[s\].
     #[must_use]
     pub fn times(&self) -> &[f64] {
-        self.column(TIME)
+        self.columns.first().map_or(&[], |time| &time.values)
     }
 
     /// How many rows.
@@ -123,22 +136,29 @@ impl Recording {
     }
 
     /// Distance between end effector and reference at every communication point \[m\].
-    #[must_use]
-    pub fn tracking_error(&self) -> Vec<f64> {
+    ///
+    /// # Errors
+    /// If one of them was not recorded.
+    pub fn tracking_error(&self) -> Result<Vec<f64>, NotRecorded> {
         self.distance("end_effector", "reference")
     }
 
     /// Distance between two points, each named by what stands before `.x` and `.y`, in every row \[m\].
-    #[must_use]
-    pub fn distance(&self, found: &str, wanted: &str) -> Vec<f64> {
+    ///
+    /// # Errors
+    /// If one of them was not recorded.
+    pub fn distance(&self, found: &str, wanted: &str) -> Result<Vec<f64>, NotRecorded> {
         let along = |axis: &str| self.difference(&format!("{found}.{axis}"), &format!("{wanted}.{axis}"));
-        along("x").into_iter().zip(along("y")).map(|(dx, dy)| dx.hypot(dy)).collect()
+        Ok(along("x")?.into_iter().zip(along("y")?).map(|(dx, dy)| dx.hypot(dy)).collect())
     }
 
     /// By how much one column is above another, in every row.
-    #[must_use]
-    pub fn difference(&self, found: &str, wanted: &str) -> Vec<f64> {
-        self.column(found).iter().zip(self.column(wanted)).map(|(found, wanted)| found - wanted).collect()
+    ///
+    /// # Errors
+    /// If one of them was not recorded.
+    pub fn difference(&self, found: &str, wanted: &str) -> Result<Vec<f64>, NotRecorded> {
+        let [found, wanted] = [self.column(found)?, self.column(wanted)?];
+        Ok(found.iter().zip(wanted).map(|(found, wanted)| found - wanted).collect())
     }
 }
 
@@ -192,8 +212,15 @@ impl Recorder {
 ///
 /// # Errors
 /// If the file cannot be written.
-pub fn write_csv(path: &Path, recordings: &[(&str, &Recording)], stride: usize) -> Result<(), csv::Error> {
-    let mut writer = csv::Writer::from_path(path)?;
+pub fn write_csv(path: &Path, recordings: &[(&str, &Recording)], stride: usize) -> crate::Result<Written> {
+    files::write_with(path, |file| Ok(write_rows(csv::Writer::from_writer(file), recordings, stride)?))
+}
+
+fn write_rows(
+    mut writer: csv::Writer<&mut dyn Write>,
+    recordings: &[(&str, &Recording)],
+    stride: usize,
+) -> Result<(), csv::Error> {
     let columns: Vec<(String, &[f64])> = recordings
         .iter()
         .flat_map(|(prefix, recording)| {
@@ -233,12 +260,25 @@ mod tests {
     fn columns_and_rows() {
         let recording = recording();
         assert_eq!(recording.len(), 3);
-        assert_eq!(recording.column("end_effector.y"), [0.0, 4.0, 1.0]);
-        assert!(recording.column("nothing").is_empty());
-        assert_eq!(recording.tracking_error(), [0.0, 5.0, 0.5]);
+        assert_eq!(recording.column("end_effector.y").unwrap(), [0.0, 4.0, 1.0]);
+        assert_eq!(recording.tracking_error().unwrap(), [0.0, 5.0, 0.5]);
         assert_eq!(recording.row_at(0.15), Some(1));
         assert_eq!(recording.row_at(0.1 - 1e-9), Some(1));
         assert_eq!(recording.row_at(-1.0), None);
+    }
+
+    /// A name that is not there, or not any more, must not pass for a vehicle without such a thing.
+    #[test]
+    fn columns_that_do_not_exist_are_errors_that_name_them() {
+        let recording = recording();
+        let refused = |result: Result<Vec<f64>, NotRecorded>| result.unwrap_err().to_string();
+        assert_eq!(
+            refused(recording.column("end_effector.z").map(<[f64]>::to_vec)),
+            "`end_effector.z` was not recorded"
+        );
+        assert_eq!(refused(recording.distance("base", "reference")), "`base.x` was not recorded");
+        assert_eq!(refused(recording.difference("reference.x", "base.x")), "`base.x` was not recorded");
+        assert_eq!(refused(Recording::default().tracking_error()), "`end_effector.x` was not recorded");
     }
 
     #[test]

@@ -20,7 +20,9 @@ pub use figures::{Figure, Topic};
 pub use style::Paint;
 
 use crate::claims::Table;
+use crate::files::{self, Written};
 use crate::html::document;
+use crate::record::NotRecorded;
 use crate::run::Run;
 
 /// A report that cannot be made.
@@ -29,12 +31,18 @@ pub enum Error {
     /// There is nothing to show.
     #[error("a report needs at least one run")]
     Empty,
+    /// A simulation that belongs to the report was not run.
+    #[error("the report needs a run of {scenario}")]
+    Missing {
+        /// Name of the simulation.
+        scenario: &'static str,
+    },
+    /// What a figure shows, or a number sums up.
+    #[error(transparent)]
+    NotRecorded(#[from] NotRecorded),
     /// The drawing library gave up.
     #[error("a figure cannot be drawn: {0}")]
     Drawing(String),
-    /// The file cannot be written.
-    #[error("cannot write the report")]
-    File(#[from] std::io::Error),
 }
 
 /// A run with the name and the colour that it has in all figures.
@@ -82,8 +90,8 @@ impl Report {
     ///
     /// # Errors
     /// If the file cannot be written.
-    pub fn write(&self, path: &Path) -> Result<(), Error> {
-        Ok(std::fs::write(path, self.html())?)
+    pub fn write(&self, path: &Path) -> crate::Result<Written> {
+        files::write(path, self.html().as_bytes())
     }
 }
 

@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use uam::scenarios::Scenario;
 
 use crate::coupling::{Coupling, Error, Order, Pair, Schedule};
+use crate::design;
 use crate::record::{Names, Recorder, Recording};
 
 /// What came out of a scenario.
@@ -52,6 +53,8 @@ pub fn run(
     names: &Names,
     progress: &dyn Fn(),
 ) -> Result<Run, Error> {
+    // In terms of parameters, not of the calls by which the units would refuse them.
+    design::check(scenario.structure, &scenario.parameters)?;
     let mut coupling = Coupling::new(pair)?;
     coupling.configure(scenario.structure, &scenario.parameters)?;
     run_prepared(coupling, scenario, schedule, order, names, progress)

@@ -11,7 +11,7 @@ use uam::scenarios::{self, Scenario, catalogue};
 
 use crate::claims::{self, Claim, DISCRETIZATIONS, Numbers, Quantity, Row, Table};
 use crate::coupling::{Error, Order, Pair, Schedule};
-use crate::record::Names;
+use crate::record::{Names, NotRecorded};
 use crate::run::{Run, run};
 
 /// Runs a scenario at its own step with a discretization. `progress` hears of every communication point.
@@ -64,9 +64,12 @@ impl Case {
     }
 
     /// The numbers of both runs.
-    #[must_use]
-    pub fn summary(&self) -> Summary {
-        Summary { scenario: self.scenario.clone(), outcomes: self.runs.each_ref().map(Outcome::of) }
+    ///
+    /// # Errors
+    /// If they lack what is to be measured.
+    pub fn summary(&self) -> Result<Summary, NotRecorded> {
+        let outcomes = [Outcome::of(self.euler())?, Outcome::of(self.exact())?];
+        Ok(Summary { scenario: self.scenario.clone(), outcomes })
     }
 }
 
@@ -85,14 +88,16 @@ pub struct Outcome {
 
 impl Outcome {
     /// Sums up a run.
-    #[must_use]
-    pub fn of(run: &Run) -> Self {
-        Self {
-            numbers: Numbers::of(&run.recording),
+    ///
+    /// # Errors
+    /// If it lacks what is to be measured.
+    pub fn of(run: &Run) -> Result<Self, NotRecorded> {
+        Ok(Self {
+            numbers: Numbers::of(&run.recording, run.scenario.structure)?,
             complaint: run.complaint(),
             simulated: run.simulated(),
             elapsed: run.elapsed,
-        }
+        })
     }
 }
 
@@ -111,22 +116,18 @@ pub struct Summary {
 /// If one of them cannot be started.
 pub fn run_all<'a>(
     scenarios: Vec<Scenario>,
-    pair: &(dyn Fn(Structure) -> Option<&'a Pair> + Sync),
+    pair: &(dyn Fn(Structure) -> Result<&'a Pair, Error> + Sync),
     progress: &(dyn Fn() + Sync),
 ) -> Result<Vec<Summary>, Error> {
     let jobs = with_each(&scenarios);
     let run = |&(scenario, discretization): &(&Scenario, Discretization)| {
-        let pair = pair(scenario.structure).ok_or(Error::Empty)?;
-        let run = run_with(pair, scenario, discretization, progress)?;
-        Ok(Outcome::of(&run))
+        let run = run_with(pair(scenario.structure)?, scenario, discretization, progress)?;
+        Ok(Outcome::of(&run)?)
     };
-    let mut outcomes = on_all_cores(&jobs, &run).into_iter();
-    let mut next = || outcomes.next().unwrap_or(Err(Error::Empty));
-    let mut summaries = Vec::with_capacity(scenarios.len());
-    for scenario in &scenarios {
-        summaries.push(Summary { scenario: scenario.clone(), outcomes: [next()?, next()?] });
-    }
-    Ok(summaries)
+    let outcomes = on_all_cores(&jobs, &run).into_iter().collect::<Result<Vec<Outcome>, Error>>()?;
+    let (outcomes, _) = outcomes.as_chunks();
+    let summary = |(scenario, outcomes): (_, &[Outcome; 2])| Summary { scenario, outcomes: outcomes.clone() };
+    Ok(scenarios.clone().into_iter().zip(outcomes).map(summary).collect())
 }
 
 /// Each of these with each of [`DISCRETIZATIONS`].
@@ -173,7 +174,10 @@ const PICK_UP: [Quantity; 8] = [
 /// # Errors
 /// If a file of the catalogue is wrong.
 pub fn pick_up() -> Result<Vec<Scenario>, scenarios::Error> {
-    Ok(catalogue()?.into_iter().filter(|Scenario { id, .. }| id.starts_with("4.3") || id == scenarios::PICK_UP).collect())
+    Ok(catalogue()?
+        .into_iter()
+        .filter(|Scenario { id, .. }| id.starts_with("4.3") || id == scenarios::PICK_UP)
+        .collect())
 }
 
 /// What the thesis says of these scenarios beside what came out.

@@ -1,32 +1,57 @@
 //! A scenario with some of its numbers changed: what depends on a number that the thesis does not print?
 
 use uam::scenarios::{Error, Problem, Scenario};
+use uam::{Parameters, Structure};
 
 /// Beside the names of parameters, `duration` and `step`: all times of path and grasp are divided by it.
 pub const PACE: &str = "pace";
 /// Likewise: all ways of the path are multiplied by it.
 pub const SIZE: &str = "size";
 
-/// In the name of a parameter: that of every link and joint.
+/// In the name of a parameter: that of every link, joint or leg.
 pub const EVERY: &str = "[*]";
 
 /// Names with new values, each as written in a scenario file.
 pub type Changes<'a> = &'a [(&'a str, &'a str)];
 
-/// The scenario with these changes, in their order.
+/// The scenario with these changes, in their order; what is given new values between two factors changes at once, and
+/// only has to go together in the end.
 ///
 /// # Errors
 /// Names the key or value that is not understood, with what is allowed.
 pub fn vary(scenario: &Scenario, changes: Changes<'_>) -> Result<Scenario, Error> {
-    changes.iter().try_fold(scenario.clone(), |scenario, &(name, value)| match name {
-        PACE => Ok(at_pace(scenario, factor(name, value)?)),
-        SIZE => Ok(of_size(scenario, factor(name, value)?)),
-        _ if name.contains(EVERY) => {
-            let names = (1..=scenario.structure.links).map(|n| name.replace(EVERY, &format!("[{n}]")));
-            names.into_iter().try_fold(scenario, |scenario, name| scenario.with([(name.as_str(), value)]))
-        }
-        _ => scenario.with([(name, value)]),
-    })
+    let mut varied = scenario.clone();
+    let mut values: Vec<(String, &str)> = Vec::new();
+    for &(name, value) in changes {
+        let change = match name {
+            PACE => at_pace,
+            SIZE => of_size,
+            _ => {
+                for name in every(varied.structure, name) {
+                    values.retain(|(other, _)| *other != name);
+                    values.push((name, value));
+                }
+                continue;
+            }
+        };
+        varied = change(with(&varied, std::mem::take(&mut values))?, factor(name, value)?);
+    }
+    with(&varied, values)
+}
+
+fn with(scenario: &Scenario, values: Vec<(String, &str)>) -> Result<Scenario, Error> {
+    scenario.with(values.iter().map(|(name, value)| (name.as_str(), *value)))
+}
+
+/// The names that a name with [`EVERY`] stands for: as many as the structure has; at least the first, which is to be
+/// refused if there is none.
+fn every(structure: Structure, name: &str) -> Vec<String> {
+    if !name.contains(EVERY) {
+        return vec![name.to_owned()];
+    }
+    let table = Parameters::table(structure);
+    let numbered = (1..).map(|n| (n, name.replace(EVERY, &format!("[{n}]"))));
+    numbered.take_while(|(n, name)| *n == 1 || table.find(name).is_some()).map(|(_, name)| name).collect()
 }
 
 fn factor(name: &str, value: &str) -> Result<f64, Error> {
@@ -54,7 +79,7 @@ fn of_size(mut scenario: Scenario, size: f64) -> Scenario {
 
 #[cfg(test)]
 mod tests {
-    use uam::scenarios::find;
+    use uam::scenarios::{catalogue, find};
 
     use super::*;
 
@@ -77,6 +102,44 @@ mod tests {
     fn one_change_may_be_for_every_joint() {
         let varied = vary(&find("4.4b").unwrap(), &[("joint[*].acceleration_limit", "6")]).unwrap();
         assert!(varied.parameters.joints[..3].iter().all(|joint| joint.acceleration_limit == 6.0));
+    }
+
+    /// Of every family that there is, whatever the numbers of the others.
+    #[test]
+    fn every_member_of_a_family_is_changed_and_nothing_else() {
+        for structure in Structure::all() {
+            let id = catalogue().unwrap().into_iter().find(|scenario| scenario.structure == structure);
+            let Some(known) = id else { continue };
+            for (name, members) in [
+                ("link[*].com", structure.links),
+                ("joint[*].weight", structure.links),
+                ("reference.leg[*].dx", 4),
+                ("reference.leg[*].start", 4),
+            ] {
+                let varied = vary(&known, &[(name, "0.75")]).unwrap();
+                let members: Vec<String> = (1..=members).map(|n| name.replace('*', &n.to_string())).collect();
+                let (mut before, mut now) = (known.parameters.clone(), varied.parameters);
+                for variable in Parameters::table(structure).variables() {
+                    let Some(value) = variable.real(&mut now).copied() else { continue };
+                    let expected =
+                        if members.contains(&variable.name) { 0.75 } else { *variable.real(&mut before).unwrap() };
+                    assert_eq!(value, expected, "{structure}: {name}: {}", variable.name);
+                }
+            }
+        }
+        let refused = vary(&find("4.3b").unwrap(), &[("link[*].mas", "1")]).unwrap_err().to_string();
+        assert!(refused.contains("no parameter `link[1].mas`; did you mean `link[1].mass`"), "{refused}");
+    }
+
+    /// The first of two changes alone would be refused; the last one of the same name counts.
+    #[test]
+    fn changes_only_have_to_go_together_in_the_end() {
+        let known = find("4.3b").unwrap();
+        let [shorter, steeper] = [("reference.leg[*].duration", "0.4"), ("reference.leg[*].ramp", "0.1")];
+        assert!(vary(&known, &[shorter]).is_err());
+        assert_eq!(vary(&known, &[shorter, steeper]).unwrap(), vary(&known, &[steeper, shorter]).unwrap());
+        let varied = vary(&known, &[("joint[*].weight", "2"), ("joint[2].weight", "3")]).unwrap();
+        assert_eq!(varied.parameters.joints[..3].iter().map(|joint| joint.weight).sum::<f64>(), 2.0 + 3.0 + 2.0);
     }
 
     #[test]

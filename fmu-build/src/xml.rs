@@ -19,10 +19,18 @@ pub fn document(name: &str, content: impl FnOnce(&mut Xml) -> io::Result<()>) ->
         xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
         content(&mut xml)?;
         let mut text = String::from_utf8(xml.into_inner()).map_err(io::Error::other)?;
+        if let Some(c) = text.chars().find(|c| !is_allowed(*c)) {
+            return Err(io::Error::other(format!("XML has no character U+{:04X}", u32::from(c))));
+        }
         text.push('\n');
         Ok(text)
     };
     write().map_err(|reason| Error::Document { document: name.to_owned(), reason: reason.to_string() })
+}
+
+/// Whether XML 1.0 allows a character; not even escaped does it allow the others.
+fn is_allowed(c: char) -> bool {
+    matches!(c, '\t' | '\n' | '\r' | ' '..='\u{D7FF}' | '\u{E000}'..='\u{FFFD}' | '\u{10000}'..)
 }
 
 /// An element with every attribute on a line of its own.
@@ -104,5 +112,19 @@ mod tests {
         let text = text.unwrap();
         let parsed = roxmltree::Document::parse(&text).unwrap();
         assert_eq!(parsed.root_element().attribute("b"), Some("<\"&'>"));
+    }
+
+    #[test]
+    fn what_xml_cannot_say_is_refused() {
+        let written =
+            |c: char| document("test", |xml| xml.create_element("a").with_attribute(("b", &*c.to_string())).empty());
+        for c in ['\0', '\u{7}', '\u{1B}', '\u{1F}', '\u{FFFE}', '\u{FFFF}'] {
+            let refused = written(c).unwrap_err().to_string();
+            assert_eq!(refused, format!("cannot put together test: XML has no character U+{:04X}", u32::from(c)));
+        }
+        for c in (0..=u32::from(char::MAX)).step_by(97).filter_map(char::from_u32) {
+            let parsed = written(c).ok().map(|text| roxmltree::Document::parse(&text).map(|_| ()));
+            assert!(parsed.is_none_or(|parsed| parsed.is_ok()), "{c:?}");
+        }
     }
 }

@@ -33,6 +33,62 @@ fn mistakes_are_named_with_what_is_allowed() {
     }
 }
 
+/// Error output of a command that must be refused before anything is built.
+#[track_caller]
+fn refusal(arguments: &[&str]) -> String {
+    let (code, _, error) = answer(arguments);
+    assert_eq!(code, Some(1), "{arguments:?}");
+    assert!(!error.contains("fmi2") && !error.contains("panicked"), "{arguments:?}: {error}");
+    error
+}
+
+/// The parameter is named that is to blame, in its user's words, whatever the command.
+#[test]
+fn mistakes_in_numbers_and_methods_name_their_parameters() {
+    let cases: [(&[&str], &str); 14] = [
+        (&["vary", "4.3b", "gravity=nan"], "`gravity` must be a finite number, at least 0 [m/s2], but is nan"),
+        (&["vary", "4.3b", "mount.x=-inf"], "`mount.x` must be a finite number [m], but is -inf"),
+        (&["vary", "4.3b", "sample_time=1e5"], "sample_time = 100000.0 makes a simulation impossible"),
+        (&["vary", "4.3b", "uav.inertia=1e-9"], "uav.inertia = 1e-9 makes a simulation impossible"),
+        (&["vary", "4.3b", "link[2].length=1e300"], "link[2].length = 1e300 makes a simulation impossible"),
+        (
+            &["vary", "2.1a", "ik.resolution=extended_jacobian"],
+            "ik.resolution = extended_jacobian does not go together",
+        ),
+        (&["vary", "4.3b", "ik.path_axes=horizontal"], "ik.path_axes = horizontal does not go together"),
+        (&["vary", "4.3b", "external_reference.x=1"], "`external_reference.x` is an input of uam_controller"),
+        (&["reach", "reference.leg[1].dx=0"], "reference.leg[1].dx = 0 does not go together"),
+        (&["reach", "reference.leg[1].duration=0"], "reference.leg[1].duration = 0 does not go together"),
+        (&["reach", "reference.kind=circle"], "reference.kind = circle does not go together"),
+        (&["reach", "reference.kind=external"], "reference.kind = external does not go together"),
+        (&["reach", "gravity=NaN"], "`gravity` must be a finite number"),
+        (&["vary", "4.3b", "reference.leg[*].dz=1"], "did you mean `reference.leg[1].d"),
+    ];
+    for (arguments, expected) in cases {
+        let error = refusal(arguments);
+        assert!(error.contains(expected), "{arguments:?}: {error}");
+    }
+}
+
+#[test]
+fn mistakes_in_files_are_named_with_their_file_and_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("mine.toml");
+    for (line, expected) in [
+        ("parameters.uav.inertia = 1e-9", "uav.inertia = 1e-9 makes a simulation impossible"),
+        ("parameters.sample_time = 1e5", "sample_time = 100000.0 makes a simulation impossible"),
+        ("parameters.uav.mass = 1\nparameters.uav.mass = 2", "line 4: `parameters.uav.mass` stands in line 3 already"),
+        ("link[1].mass = 2", "line 3: names with brackets need quotes: `\"link[1].mass\" = 2`"),
+        ("parameters.grasp = true", "line 3: `grasp` is an input of uam_plant"),
+        ("parameters.ik.path_axes = 'horizontal'", "line 3: ik.path_axes = horizontal does not go together"),
+    ] {
+        std::fs::write(&file, format!("id = 'mine'\nbased_on = '4.3b'\n{line}\n")).unwrap();
+        let error = refusal(&["simulate", file.to_str().unwrap(), "--out", folder.path().to_str().unwrap()]);
+        assert!(error.contains(expected), "{line}: {error}");
+        assert!(!expected.starts_with("line") || error.contains("mine.toml"), "{line}: {error}");
+    }
+}
+
 #[test]
 fn help_teaches_with_examples() {
     let (code, help, _) = answer(&["--help"]);

@@ -5,10 +5,34 @@
 mod common;
 
 use fmu_build::claims::DISCRETIZATIONS;
-use fmu_build::reach::{AGREEMENT, MOTIONS, Reach, Trial, reach};
+use fmu_build::reach::{AGREEMENT, MOTIONS, Reach, STRIDE, Trial, comes_to_its_end, reach};
 use fmu_build::study::{on_all_cores, with_each};
 use fmu_build::variation::vary;
 use uam::scenarios::find;
+
+/// What was not seen to its end was not followed, however short the way.
+#[test]
+fn a_motion_that_does_not_come_to_its_end_is_not_followed() {
+    let exact = DISCRETIZATIONS[1];
+    for motion in MOTIONS {
+        let whole = find(motion.scenario).unwrap();
+        let pair = common::pair_of(whole.structure);
+        let end = whole.parameters.reference.end();
+        assert!(end > 1.0 && end <= whole.duration && comes_to_its_end(&whole), "{}", motion.scenario);
+        assert!(Trial::run(pair, &whole, exact, STRIDE).unwrap().followed, "{}", motion.scenario);
+        for (name, value, reaches_its_end) in [
+            ("duration", "0.5".to_owned(), false),
+            ("duration", (end - 1e-3).to_string(), false),
+            ("duration", end.to_string(), true),
+            ("reference.leg[1].start", (whole.duration - 1e-3).to_string(), false),
+            ("pace", "1e-3".to_owned(), false),
+        ] {
+            let varied = vary(&whole, &[(name, value.as_str())]).unwrap();
+            let trial = Trial::run(pair, &varied, exact, STRIDE).unwrap();
+            assert_eq!(trial.followed, reaches_its_end, "{}, {name} = {value}", motion.scenario);
+        }
+    }
+}
 
 /// With an acceleration limit and a speed of the counterweight's law, neither of which the thesis prints, all four
 /// reaches are those of the thesis, whichever the discretization: the counterweight nearly doubles the reach, and

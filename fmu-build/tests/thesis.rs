@@ -20,7 +20,7 @@ use uam::scenarios::{Scenario, catalogue, find};
 static SUMMARIES: LazyLock<Vec<Summary>> = LazyLock::new(|| run(catalogue().unwrap()));
 
 fn run(scenarios: Vec<Scenario>) -> Vec<Summary> {
-    study::run_all(scenarios, &|structure| Some(common::pair_of(structure)), &|| {}).unwrap()
+    study::run_all(scenarios, &|structure| Ok(common::pair_of(structure)), &|| {}).unwrap()
 }
 
 /// Every statement holds with both discretizations, but for those that are marked as deviations: none of these
@@ -108,7 +108,7 @@ fn the_pick_up_is_as_the_thesis_says() {
         .into_iter()
         .map(|scenario| Case::run(&common::pair(), scenario, &|| {}).unwrap())
         .collect();
-    let table = study::pick_up_table(&cases.iter().map(Case::summary).collect::<Vec<_>>());
+    let table = study::pick_up_table(&cases.iter().map(|case| case.summary().unwrap()).collect::<Vec<_>>());
     let (statements, agreeing) = table.agreement();
     assert!(statements >= 20);
     assert_eq!(statements, agreeing, "\n{table}");
@@ -131,7 +131,7 @@ fn ten_milliseconds_are_enough_without_touching_the_sample_time() {
         let names = Names::standard(scenario.structure);
         let run = fmu_build::run::run(&common::pair(), scenario, &schedule, Order::Parallel, &names, &|| {}).unwrap();
         // The first interval is planned before the host's step is known.
-        let errors = run.recording.tracking_error();
+        let errors = run.recording.tracking_error().unwrap();
         assert!(errors[1] <= 5e-8, "{}: {}", scenario.id, errors[1]);
         assert!(peak(errors[2..].iter().copied()) <= 1e-11, "{}: {errors:?}", scenario.id);
     }

@@ -234,8 +234,11 @@ impl Resolver {
 
     /// Rates none of which exceeds its limit, with how they came about.
     fn limited<const N: usize>(&self, problem: &Problem<N>, found: &PseudoInverse<N>) -> Resolved<N> {
-        let (rate, status) =
-            if self.admits(&found.rate) { (found.rate, found.status()) } else { self.path_within_limits(problem, found) };
+        let (rate, status) = if self.admits(&found.rate) {
+            (found.rate, found.status())
+        } else {
+            self.path_within_limits(problem, found)
+        };
         Resolved {
             rate,
             status,

@@ -7,7 +7,7 @@ use super::law::{Flow, Scene};
 use super::runge_kutta::Internal;
 use super::{Account, Dynamics, Impulse, Load, Loads, Motion, Node, Situation, State, in_inertial_frame};
 use crate::autopilot::AutopilotMode;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::planar::{Turn, Vec2, vec2};
 use crate::vehicle::Balancer;
 
@@ -79,7 +79,8 @@ impl<const N: usize> Dynamics<N> {
             let longest = self.longest_internal_step(step, turning, scene.contact);
             let most = MOST_STEPS * if sample_time < longest { sample_time } else { longest };
             if left > most {
-                return Err(Error::StepTooLong { size, most });
+                let turning = turning + TUMBLING * step.rates[0][2].abs();
+                return Err(self.too_long(size, most, turning, scene.contact));
             }
             // A sample at the end belongs to the step that begins there.
             let piece = if until_sample < left - SAME_INSTANT { until_sample } else { left };

@@ -114,7 +114,7 @@ pub enum Error {
         found: f64,
     },
     /// Initial parameters that the model does not accept.
-    #[error("{0}")]
+    #[error("the simulation cannot begin: {0}")]
     Initialization(String),
     /// A step that the model could not do.
     #[error("the step from t = {from} s by {size} s failed: {reason}")]

@@ -6,6 +6,7 @@ use super::start::{BALANCE, GEOMETRY, PLAN};
 use super::{Balancing, declare_time};
 use crate::bytes::{Memory, Tape};
 use crate::controller::{self, Inputs, Outputs, Rates};
+use crate::culprit::blame;
 use crate::defaults::default_parameters;
 use crate::error::Error;
 use crate::fmi2::{CommunicationStep, Model};
@@ -82,9 +83,13 @@ impl Model for ControllerUnit {
     }
 
     fn initialize(structure: Structure, data: &mut Data, _start_time: f64) -> Result<Self, Error> {
-        let planner = controller::new(structure, &data.parameters, &mut data.outputs)?;
-        data.outputs.check(0.0)?;
-        Ok(Self(planner))
+        // Called from two places, and one copy of it in the library.
+        let begin: &dyn Fn(&mut Data) -> Result<Self, Error> = &|data| {
+            let mut planner = controller::without_plan(structure, &data.parameters)?;
+            planner.begin(&mut data.outputs)?;
+            data.outputs.check(0.0).map(|()| Self(planner))
+        };
+        begin(data).map_err(|error| blame(structure, data, begin, error))
     }
 
     fn tune(&mut self, data: &Data) {

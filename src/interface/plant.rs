@@ -6,6 +6,7 @@ mod outputs;
 
 use super::declare_time;
 use crate::bytes::{Memory, Tape};
+use crate::culprit::blame;
 use crate::defaults::default_parameters;
 use crate::error::Error;
 use crate::fmi2::{CommunicationStep, Model};
@@ -82,9 +83,12 @@ impl Model for PlantUnit {
     }
 
     fn initialize(structure: Structure, data: &mut Data, _start_time: f64) -> Result<Self, Error> {
-        let simulation = plant::new(structure, &data.parameters)?;
-        simulation.initial_outputs(&mut data.outputs)?;
-        Ok(Self(simulation))
+        // Called from two places, and one copy of it in the library.
+        let begin: &dyn Fn(&mut Data) -> Result<Self, Error> = &|data| {
+            let simulation = plant::new(structure, &data.parameters)?;
+            simulation.initial_outputs(&mut data.outputs).map(|()| Self(simulation))
+        };
+        begin(data).map_err(|error| blame(structure, data, begin, error))
     }
 
     fn tune(&mut self, data: &Data) {

@@ -49,8 +49,31 @@ pub enum Error {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Problem {
     /// The text is not TOML.
-    #[error("{0}")]
-    Syntax(String),
+    #[error("{message}, in `{text}`")]
+    Syntax {
+        /// What is wrong.
+        message: String,
+        /// The line.
+        text: String,
+    },
+    /// Brackets, which TOML has for lists, in a name without quotes.
+    #[error("names with brackets need quotes: `{corrected}`")]
+    Unquoted {
+        /// The line with quotes.
+        corrected: String,
+    },
+    /// A variable that is no parameter.
+    #[error("`{name}` is {role} of {unit}, not a parameter: {advice}")]
+    NoParameter {
+        /// The name.
+        name: String,
+        /// What it is.
+        role: &'static str,
+        /// The unit that has it.
+        unit: &'static str,
+        /// What to do instead.
+        advice: String,
+    },
     /// A key that means nothing.
     #[error("unknown key `{key}`{}", proposals(near))]
     UnknownKey {
@@ -91,7 +114,7 @@ pub enum Problem {
     #[error(transparent)]
     Parameter(crate::Error),
     /// The scenario that this one is based on does not exist.
-    #[error("there is no scenario `{id}`{}", proposals(near))]
+    #[error("`based_on` must be the name of a scenario of the catalogue, but there is no `{id}`{}", proposals(near))]
     NoScenario {
         /// The name asked for.
         id: String,
@@ -100,29 +123,33 @@ pub enum Problem {
     },
 }
 
-/// The most similar candidates, or all of a few if none is similar.
+/// The most similar candidates, or none if none is similar.
 pub(super) fn near<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Vec<String> {
     const SIMILAR: f64 = 0.8;
-    const MOST: usize = 3;
     let mut rated: Vec<(f64, &str)> =
         candidates.into_iter().map(|candidate| (strsim::jaro_winkler(candidate, word), candidate)).collect();
     rated.sort_by(|(a, _), (b, _)| b.total_cmp(a));
     rated.into_iter().take_while(|(rate, _)| *rate > SIMILAR).take(MOST).map(|(_, name)| name.to_owned()).collect()
 }
 
+/// Most names that are proposed where some are similar.
+const MOST: usize = 3;
+
 fn proposals(near: &[String]) -> String {
     let mut text = String::new();
+    let (begin, end, mark) =
+        if near.len() > MOST { ("; there are ", " and ", "") } else { ("; did you mean ", " or ", "?") };
     for (i, name) in near.iter().enumerate() {
         let before = match i {
-            0 => "; did you mean ",
-            i if i + 1 == near.len() => " or ",
+            0 => begin,
+            i if i + 1 == near.len() => end,
             _ => ", ",
         };
         // Writing to a text cannot fail.
         let _ = write!(text, "{before}`{name}`");
     }
     if !near.is_empty() {
-        text.push('?');
+        text.push_str(mark);
     }
     text
 }

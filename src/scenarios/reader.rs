@@ -3,26 +3,29 @@
 use toml::de::{DeTable, DeValue};
 
 use super::error::near;
+use super::syntax::{self, printable};
+use super::unknown::{near_keys, no_parameter};
 use super::{Error, Problem, Scenario, THESIS_STEP, default_parameters};
+use crate::controller;
 use crate::parameters::{Balance, Parameters, Structure};
 use crate::variables::{Kind, Variable};
 
 /// Keys beside the parameters, with what each must be.
 const ID: (&str, &str) = ("id", "a short name of letters, digits, `.`, `-` and `_`, in quotes");
-const TITLE: (&str, &str) = ("title", "one line on what happens, in quotes");
+const TITLE: (&str, &str) = ("title", "one line on what happens, in quotes, without control characters");
 const BASED_ON: (&str, &str) = ("based_on", "the name of another scenario, in quotes");
 pub(super) const DURATION: (&str, &str) = ("duration", "a number of seconds above 0");
 pub(super) const STEP: (&str, &str) = ("step", "a number of seconds above 0, at most the duration");
 const LINKS: (&str, &str) = ("structure.links", "a whole number from 1 to 6");
 const BALANCE: (&str, &str) = ("structure.balance", "\"none\", \"counterweight\" or \"balance_element\"");
-const KEYS: [(&str, &str); 7] = [ID, TITLE, BASED_ON, DURATION, STEP, LINKS, BALANCE];
+pub(super) const KEYS: [(&str, &str); 7] = [ID, TITLE, BASED_ON, DURATION, STEP, LINKS, BALANCE];
 /// The table of all parameters.
-const PARAMETERS: &str = "parameters";
+pub(super) const PARAMETERS: &str = "parameters";
 
 /// A value with its whole name and its line.
-struct Entry<'a> {
-    key: String,
-    line: usize,
+pub(super) struct Entry<'a> {
+    pub(super) key: String,
+    pub(super) line: usize,
     value: &'a DeValue<'a>,
 }
 
@@ -34,13 +37,17 @@ struct Document<'a> {
 /// Reads a scenario that may be based on one of those that are known.
 pub(super) fn read(text: &str, known: &[Scenario]) -> Result<Scenario, Error> {
     let line_of = |position: usize| text.bytes().take(position).filter(|&byte| byte == b'\n').count() + 1;
-    let table = DeTable::parse(text).map_err(|error| {
-        let position = error.span().map_or(text.len(), |span| span.start);
-        Error::Line { line: line_of(position), problem: Problem::Syntax(error.message().to_owned()) }
-    })?;
+    let (table, mistakes) = DeTable::parse_recoverable(text);
     let mut entries = Vec::new();
     flatten("", table.get_ref(), &line_of, &mut entries);
     entries.sort_by_key(|entry| entry.line);
+    if let Some(mistake) = mistakes.first() {
+        let span = mistake.span().unwrap_or(text.len()..text.len());
+        let line = line_of(span.start);
+        let whole = text.lines().nth(line - 1).unwrap_or_default();
+        let problem = syntax::problem(mistake.message(), text.get(span).unwrap_or_default(), whole, line, &entries);
+        return Err(Error::Line { line, problem });
+    }
     let document = Document { entries };
     document.check_keys()?;
     document.scenario(known)
@@ -68,7 +75,8 @@ impl Document<'_> {
                 matches!(entry.value, DeValue::Table(_)) && ["structure", PARAMETERS].contains(&&*entry.key);
             let known = KEYS.iter().any(|(key, _)| *key == entry.key);
             if !(known || empty_table || entry.parameter().is_some()) {
-                return Err(entry.refused(Problem::UnknownKey { key: entry.key.clone(), near: near_keys(&entry.key) }));
+                let unknown = || Problem::UnknownKey { key: printable(&entry.key), near: near_keys(&entry.key) };
+                return Err(entry.refused(no_parameter(Structure::DEFAULT, &entry.key).unwrap_or_else(unknown)));
             }
         }
         Ok(())
@@ -86,15 +94,17 @@ impl Document<'_> {
                 let id = field.text()?;
                 let base = known.iter().find(|scenario| scenario.id == id);
                 Some(base.ok_or_else(|| {
-                    let near = near(id, known.iter().map(|scenario| scenario.id.as_str()));
-                    field.entry.refused(Problem::NoScenario { id: id.to_owned(), near })
+                    let ids = || known.iter().map(|scenario| scenario.id.as_str());
+                    let near = Some(near(id, ids())).filter(|near| !near.is_empty());
+                    let near = near.unwrap_or_else(|| ids().map(str::to_owned).collect());
+                    field.entry.refused(Problem::NoScenario { id: printable(id), near })
                 })?)
             }
         };
 
         let id = self.field(ID).ok_or_else(|| missing(ID))?;
         let id = id.if_ok(id.text()?.to_owned(), |text: &String| is_name(text))?;
-        let title = self.field(TITLE).map(|field| field.text()).transpose()?;
+        let title = self.field(TITLE).map(|field| field.if_ok(field.text()?, |text| is_line(text))).transpose()?;
         let title = title.or(base.map(|base| base.title.as_str())).ok_or_else(|| missing(TITLE))?.to_owned();
         let seconds = |key, inherited: Option<f64>| match self.field(key) {
             Some(field) => field.if_ok(field.number()?, |&value| value.is_finite() && value > 0.0),
@@ -147,13 +157,13 @@ impl Document<'_> {
             let Some(name) = entry.parameter() else { continue };
             let Some(variable) = table.find(name) else {
                 let near = near(name, table.variables().iter().map(|variable| variable.name.as_str()));
-                let problem =
-                    Problem::UnknownParameter { name: name.to_owned(), structure: structure.to_string(), near };
-                return Err(entry.refused(problem));
+                let unknown =
+                    || Problem::UnknownParameter { name: printable(name), structure: structure.to_string(), near };
+                return Err(entry.refused(no_parameter(structure, name).unwrap_or_else(unknown)));
             };
             entry.put(variable, parameters)?;
         }
-        parameters.check(structure).map_err(|error| {
+        controller::check(structure, parameters).map_err(|error| {
             let name = error.parameter().unwrap_or_default();
             match self.entries.iter().find(|entry| entry.parameter() == Some(name)) {
                 Some(entry) => entry.refused(Problem::Parameter(error)),
@@ -163,15 +173,9 @@ impl Document<'_> {
     }
 }
 
-/// Keys that may have been meant: for a parameter outside its table, that inside.
-fn near_keys(key: &str) -> Vec<String> {
-    let table = Parameters::table(Structure::DEFAULT);
-    if table.find(key).is_some() {
-        return vec![format!("{PARAMETERS}.{key}")];
-    }
-    let mut keys = near(key, KEYS.iter().map(|(key, _)| *key).chain([PARAMETERS]));
-    keys.truncate(1);
-    keys
+/// Whether this is one line, which every document can hold.
+fn is_line(text: &str) -> bool {
+    !text.contains(|c: char| c.is_control() || ('\u{FFFE}'..='\u{FFFF}').contains(&c))
 }
 
 /// Whether this can be part of the name of a file.
@@ -267,7 +271,7 @@ impl Entry<'_> {
 /// A value as it stands in the file, or what kind of value it is.
 fn found(value: &DeValue<'_>) -> String {
     match value {
-        DeValue::String(text) => format!("\"{text}\""),
+        DeValue::String(text) => format!("{text:?}"),
         DeValue::Integer(number) => number.to_string(),
         DeValue::Float(number) => number.to_string(),
         DeValue::Boolean(value) => value.to_string(),

@@ -77,6 +77,7 @@ pub(super) fn based_on(scenario: &Scenario) -> String {
 pub(super) fn change(text: &mut String, name: &str, value: &str) {
     let table = if [DURATION.0, STEP.0].contains(&name) { "" } else { "parameters." };
     let value = match (value.parse::<f64>(), value) {
+        (Ok(number), _) if number.is_nan() => "nan".to_owned(),
         (Ok(number), _) => format!("{number:?}"),
         (_, "true" | "false") => value.to_owned(),
         _ => quoted(value),

@@ -3,10 +3,10 @@
 use nalgebra::Vector2;
 use proptest::prelude::*;
 use uam::autopilot::{AutopilotMode, Gains};
+use uam::defaults::default_parameters;
 use uam::dynamics::Load;
 use uam::parameters::{Balance, Link};
 use uam::plant::Inputs;
-use uam::scenarios::default_parameters;
 use uam::{Parameters, Structure};
 
 /// A sequence of pseudo-random numbers (splitmix64).

@@ -102,7 +102,8 @@ impl Ours {
             let problem = Problem {
                 path: response.jacobian,
                 velocity: target - response.end_effector_free,
-                interval: 1e-3, caution: 0.0,
+                interval: 1e-3,
+                caution: 0.0,
                 moment: Task { row: response.carried, value: 0.0 },
             };
             sum += problem.resolve(PathAxes::Both, false, reach).rate;

@@ -1,11 +1,13 @@
 //! Numbers that sum up a run.
 
+use uam::Structure;
 use uam::controller::Status;
 use uam::options::Choice;
+use uam::parameters::Balance;
 
 use super::LOST;
 use super::reading::{Reading, Shown};
-use crate::record::Recording;
+use crate::record::{NotRecorded, Recording};
 
 /// A number that sums up a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -172,17 +174,28 @@ impl Quantity {
         }
     }
 
-    /// The number in SI units. Not a number if the recording lacks the columns; infinite if what is asked
-    /// for never happens.
+    /// Whether vehicles of this structure have what it is about.
     #[must_use]
-    pub fn measure(self, recording: &Recording) -> f64 {
-        let largest = |name: &str, sign: f64| peak(recording.column(name).iter().map(|value| sign * value));
-        let size = |name: &str| peak(recording.column(name).iter().map(|value| value.abs()));
-        let last = |name: &str| recording.column(name).last().copied().unwrap_or(f64::NAN);
-        let apart = |found: &str, wanted: &str| peak(recording.difference(found, wanted).into_iter().map(f64::abs));
-        let joints = |suffix: &'static str| {
-            recording.names().filter(move |name| name.starts_with("joint[") && name.ends_with(suffix))
-        };
+    pub fn is_of(self, structure: Structure) -> bool {
+        match self {
+            Self::ThirdJoint => structure.links >= 3,
+            Self::CounterweightRight | Self::CounterweightLeft => structure.balance == Balance::Counterweight,
+            Self::ElementJump | Self::ElementSwings => structure.balance == Balance::Element,
+            _ => true,
+        }
+    }
+
+    /// The number in SI units. Not a number if the run is too short for it; infinite if what is asked for never
+    /// happens.
+    ///
+    /// # Errors
+    /// If the recording lacks a column that it takes.
+    pub fn measure(self, recording: &Recording) -> Result<f64, NotRecorded> {
+        let largest = |name: &str, sign: f64| Ok(peak(recording.column(name)?.iter().map(|value| sign * value)));
+        let size = |name: &str| Ok(peak(recording.column(name)?.iter().map(|value| value.abs())));
+        let last = |name: &str| Ok(recording.column(name)?.last().copied().unwrap_or(f64::NAN));
+        let apart =
+            |found: &str, wanted: &str| Ok(peak(recording.difference(found, wanted)?.into_iter().map(f64::abs)));
         match self {
             Self::FarthestRight => largest("base.x", 1.0),
             Self::FarthestLeft => largest("base.x", -1.0),
@@ -194,64 +207,58 @@ impl Quantity {
             Self::Roll => size("base.roll"),
             Self::Torque => size("autopilot.torque"),
             Self::Thrust => {
-                let thrust = recording.column("autopilot.thrust");
+                let thrust = recording.column("autopilot.thrust")?;
                 let weight = thrust.first().copied().unwrap_or(f64::NAN);
-                peak(thrust.iter().map(|thrust| (thrust / weight - 1.0).abs()))
+                Ok(peak(thrust.iter().map(|thrust| (thrust / weight - 1.0).abs())))
             }
             Self::Moment => size("transmitted.moment"),
             Self::EarlyMoment => peak_between(recording, "transmitted.moment", [0.0, 0.25]),
             Self::LateMoment => peak_between(recording, "transmitted.moment", [0.9, 1.0]),
-            Self::TrackingError => peak(recording.tracking_error()),
+            Self::TrackingError => recording.tracking_error().map(peak),
             Self::ErrorX => apart("end_effector.x", "reference.x"),
             Self::EarlyErrorX => {
-                let errors = recording.difference("end_effector.x", "reference.x").into_iter();
-                peak(errors.take(recording.len() / 3).map(f64::abs))
+                let errors = recording.difference("end_effector.x", "reference.x")?.into_iter();
+                Ok(peak(errors.take(recording.len() / 3).map(f64::abs)))
             }
-            Self::FinalErrorX => (last("end_effector.x") - last("reference.x")).abs(),
+            Self::FinalErrorX => Ok(f64::abs(last("end_effector.x")? - last("reference.x")?)),
             Self::ErrorY => apart("end_effector.y", "reference.y"),
             Self::ErrorYWithoutBase => {
-                let errors = recording.difference("end_effector.y", "reference.y").into_iter();
-                peak(errors.zip(recording.column("base.y")).map(|(error, base)| (error - base).abs()))
+                let errors = recording.difference("end_effector.y", "reference.y")?.into_iter();
+                Ok(peak(errors.zip(recording.column("base.y")?).map(|(error, base)| (error - base).abs())))
             }
             Self::VelocityError => velocity_error(recording),
-            Self::JointsReturn => peak(joints("].position").map(|name| match recording.column(name) {
+            Self::JointsReturn => Ok(peak(joints(recording, "position")?.into_iter().map(|angles| match angles {
                 [first, .., last] => (last - first).abs(),
                 _ => f64::NAN,
-            })),
+            }))),
             Self::ThirdJoint => last("joint[3].position"),
-            Self::Rate => peak(joints("].rate_command").map(size)),
+            Self::Rate => Ok(peak(joints(recording, "rate_command")?.into_iter().flatten().map(|rate| rate.abs()))),
             Self::CounterweightRight => {
-                let position = recording.column("counterweight.position");
+                let position = recording.column("counterweight.position")?;
                 let leftmost =
                     (0..position.len()).min_by(|&a, &b| position[a].total_cmp(&position[b])).unwrap_or_default();
-                peak(position.iter().take(leftmost + 1).copied())
+                Ok(peak(position.iter().take(leftmost + 1).copied()))
             }
-            Self::CounterweightLeft => -largest("counterweight.position", -1.0),
+            Self::CounterweightLeft => largest("counterweight.position", -1.0).map(|left: f64| -left),
             Self::ElementJump => {
-                let acceleration = recording.column("balance_element.acceleration_command");
-                peak(acceleration.windows(2).map(|pair| (pair[1] - pair[0]).abs()))
+                let acceleration = recording.column("balance_element.acceleration_command")?;
+                Ok(peak(acceleration.windows(2).map(|pair| (pair[1] - pair[0]).abs())))
             }
-            Self::ElementSwings => swings(recording.column("balance_element.acceleration_command")),
+            Self::ElementSwings => recording.column("balance_element.acceleration_command").map(swings),
             Self::MassDriftSpeed => drift_speed(recording, "center_of_mass.x"),
-            Self::FinalLoad => last("payload.force_y").abs(),
+            Self::FinalLoad => last("payload.force_y").map(f64::abs),
             Self::MissedX => apart("base.x", "predicted.base.x"),
             Self::MissedY => apart("base.y", "predicted.base.y"),
             Self::MissedRoll => apart("base.roll", "predicted.base.roll"),
-            Self::MissedYShare => Self::MissedY.measure(recording) / size("base.y"),
-            Self::MissedRollShare => Self::MissedRoll.measure(recording) / size("base.roll"),
+            Self::MissedYShare => Ok(Self::MissedY.measure(recording)? / size("base.y")?),
+            Self::MissedRollShare => Ok(Self::MissedRoll.measure(recording)? / size("base.roll")?),
             Self::GivesWayAt => {
-                let status = recording.column("ik.status");
-                if status.is_empty() {
-                    return f64::NAN;
-                }
-                let first = status
-                    .iter()
-                    .position(|status| GIVEN_UP.iter().any(|given_up| *status == f64::from(given_up.number())));
-                first.map_or(f64::INFINITY, |row| recording.times()[row])
+                let given_up = |status: &f64| GIVEN_UP.iter().any(|given_up| *status == f64::from(given_up.number()));
+                Ok(first_time(recording, recording.column("ik.status")?.iter().position(given_up)))
             }
             Self::LostAt => {
-                let lost = recording.tracking_error().iter().position(|&error| error > LOST || error.is_nan());
-                lost.map_or(f64::INFINITY, |row| recording.times()[row])
+                let lost = |error: &f64| *error > LOST || error.is_nan();
+                Ok(first_time(recording, recording.tracking_error()?.iter().position(lost)))
             }
         }
     }
@@ -284,13 +291,21 @@ const GIVEN_UP: [Status; 3] = [Status::PathDamped, Status::RateLimited, Status::
 pub struct Numbers([f64; Quantity::ALL.len()]);
 
 impl Numbers {
-    /// Measures all quantities.
-    #[must_use]
-    pub fn of(recording: &Recording) -> Self {
-        Self(Quantity::ALL.map(|quantity| quantity.measure(recording)))
+    /// Measures all quantities that vehicles of this structure have.
+    ///
+    /// # Errors
+    /// If the recording lacks a column that one of them takes.
+    pub fn of(recording: &Recording, structure: Structure) -> Result<Self, NotRecorded> {
+        let mut numbers = [f64::NAN; Quantity::ALL.len()];
+        for (number, quantity) in
+            numbers.iter_mut().zip(Quantity::ALL).filter(|(_, quantity)| quantity.is_of(structure))
+        {
+            *number = quantity.measure(recording)?;
+        }
+        Ok(Self(numbers))
     }
 
-    /// The number of this quantity, as [`Quantity::measure`] gives it.
+    /// The number of this quantity, as [`Quantity::measure`] gives it; not a number if the vehicle has nothing of it.
     #[must_use]
     pub fn get(&self, quantity: Quantity) -> f64 {
         let position = Quantity::ALL.iter().position(|other| *other == quantity);
@@ -298,11 +313,26 @@ impl Numbers {
     }
 }
 
+/// The columns of all joints with the same last part of their names.
+fn joints<'a>(recording: &'a Recording, suffix: &str) -> Result<Vec<&'a [f64]>, NotRecorded> {
+    let is_of_joint = |name: &&str| name.starts_with("joint[") && name.ends_with(&format!("].{suffix}"));
+    let columns = recording.names().filter(is_of_joint).map(|name| recording.column(name));
+    // Every arm has a joint.
+    let first = recording.column(&format!("joint[1].{suffix}"));
+    first.and_then(|_| columns.collect())
+}
+
+/// The time of a row; infinite if there is none.
+fn first_time(recording: &Recording, row: Option<usize>) -> f64 {
+    row.map_or(f64::INFINITY, |row| recording.times()[row])
+}
+
 /// Largest size of a column between two shares of the run's time.
-fn peak_between(recording: &Recording, name: &str, shares: [f64; 2]) -> f64 {
-    let [Some(first), Some(last)] = [recording.times().first(), recording.times().last()] else { return f64::NAN };
+fn peak_between(recording: &Recording, name: &str, shares: [f64; 2]) -> Result<f64, NotRecorded> {
+    let values = recording.column(name)?;
+    let [Some(first), Some(last)] = [recording.times().first(), recording.times().last()] else { return Ok(f64::NAN) };
     let [from, to] = shares.map(|share| recording.row_at(first + share * (last - first)).unwrap_or_default());
-    peak(recording.column(name).get(from..=to).unwrap_or_default().iter().map(|value| value.abs()))
+    Ok(peak(values.get(from..=to).unwrap_or_default().iter().map(|value| value.abs())))
 }
 
 /// What is smaller than this share of the largest value is rounding: its sign says nothing.
@@ -310,29 +340,26 @@ const VISIBLE: f64 = 1e-9;
 
 /// How often numbers change their sign.
 fn swings(values: &[f64]) -> f64 {
-    if values.is_empty() {
-        return f64::NAN;
-    }
     let largest = values.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
     let seen: Vec<f64> = values.iter().copied().filter(|value| value.abs() > VISIBLE * largest).collect();
     seen.windows(2).filter(|pair| pair[0] * pair[1] < 0.0).map(|_| 1.0).sum()
 }
 
 /// Mean velocity of what is at `name` along x in the last second, or not a number if the run is shorter.
-fn drift_speed(recording: &Recording, name: &str) -> f64 {
-    let (times, x) = (recording.times(), recording.column(name));
-    let (Some(end), Some(last)) = (times.last(), x.last()) else { return f64::NAN };
-    match recording.row_at(end - 1.0) {
+fn drift_speed(recording: &Recording, name: &str) -> Result<f64, NotRecorded> {
+    let (times, x) = (recording.times(), recording.column(name)?);
+    let (Some(end), Some(last)) = (times.last(), x.last()) else { return Ok(f64::NAN) };
+    Ok(match recording.row_at(end - 1.0) {
         Some(row) if row < x.len() => ((last - x[row]) / (end - times[row])).abs(),
         _ => f64::NAN,
-    }
+    })
 }
 
 /// How fast the distance between end effector and reference changes at most.
-fn velocity_error(recording: &Recording) -> f64 {
+fn velocity_error(recording: &Recording) -> Result<f64, NotRecorded> {
     let along = |axis: &str| recording.difference(&format!("end_effector.{axis}"), &format!("reference.{axis}"));
-    let (times, x, y) = (recording.times(), along("x"), along("y"));
-    peak((1..x.len()).map(|k| (x[k] - x[k - 1]).hypot(y[k] - y[k - 1]) / (times[k] - times[k - 1])))
+    let (times, x, y) = (recording.times(), along("x")?, along("y")?);
+    Ok(peak((1..x.len()).map(|k| (x[k] - x[k - 1]).hypot(y[k] - y[k - 1]) / (times[k] - times[k - 1]))))
 }
 
 /// The largest of the numbers; not a number if there are none or one of them is not.

@@ -2,22 +2,24 @@
 
 use std::path::Path;
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use fmu_build::budget::{Curve, Errors, VARIANTS, Variant};
-use fmu_build::report;
 use fmu_build::study::on_all_cores;
+use fmu_build::{files, report};
 use uam::scenarios::find;
 
-use super::{Pairs, Progress, wrote};
+use super::{Pairs, Progress};
 use crate::cli::PrintArguments;
+use crate::terminal::{say, wrote};
 
 /// The pick-up with the extended Jacobian.
 const SCENARIO: &str = "4.3b";
 
 pub fn execute(arguments: &PrintArguments, out: &Path) -> Result<()> {
     let scenario = find(SCENARIO)?;
-    let pairs = Pairs::build(out, [scenario.structure])?;
-    let pair = pairs.of(scenario.structure).with_context(|| format!("no FMUs for {}", scenario.structure))?;
+    files::create_folder(out)?;
+    let pairs = Pairs::build([scenario.structure])?;
+    let pair = pairs.of(scenario.structure)?;
     let mut jobs: Vec<(Variant, f64)> =
         VARIANTS.into_iter().flat_map(|variant| variant.steps().map(move |step| (variant, step))).collect();
     // Those that take longest begin.
@@ -34,13 +36,9 @@ pub fn execute(arguments: &PrintArguments, out: &Path) -> Result<()> {
     });
 
     if arguments.markdown {
-        print!("{}", report::budget::markdown(&curves));
-        return Ok(());
+        return say(report::budget::markdown(&curves).trim_end());
     }
-    println!("{}", report::budget::text(&curves));
-    let page = out.join("budget.html");
-    std::fs::write(&page, report::budget::html(&scenario, &curves)?)
-        .with_context(|| format!("cannot write {}", page.display()))?;
-    wrote(&[page]);
-    Ok(())
+    let page = files::write(&out.join("budget.html"), report::budget::html(&scenario, &curves)?.as_bytes())?;
+    say(report::budget::text(&curves))?;
+    wrote(&[page])
 }

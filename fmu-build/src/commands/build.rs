@@ -5,22 +5,23 @@ use std::path::{Path, PathBuf};
 use anyhow::{Result, bail};
 use fmu_build::compile::target_libraries;
 use fmu_build::cross::{TARGETS, Target, Toolchain};
+use fmu_build::files::Written;
 use fmu_build::platform::Platform;
 use fmu_build::{BuildOptions, Design};
 use uam::fmi2::Naming;
 
-use super::{build_files, scenario, wrote};
+use super::{build_files, scenario};
 use crate::cli::BuildArguments;
+use crate::terminal::{say, wrote};
 
 pub fn execute(arguments: &BuildArguments, out: &Path) -> Result<()> {
     let design = design(arguments)?;
-    let mut files: Vec<PathBuf> = Vec::new();
+    let mut files: Vec<Written> = Vec::new();
     for (toolchains, folder) in toolchains(arguments, out)? {
         let built = build_files(&BuildOptions { design: design.clone(), toolchains, folder })?;
-        files.extend([built.controller, built.plant, built.ssp]);
+        files.extend(built.files);
     }
-    wrote(&files);
-    Ok(())
+    wrote(&files)
 }
 
 /// The pair of units that is asked for.
@@ -57,7 +58,9 @@ fn targets(arguments: &BuildArguments) -> Result<Vec<&'static Target>> {
         let missing = target.lacks(target_libraries).join("; ");
         match (missing.as_str(), arguments.all_platforms) {
             ("", _) => targets.push(target),
-            (missing, true) => println!("skipped: {}, for this is missing: {missing}", target.platform.folder),
+            (missing, true) => {
+                say(format_args!("skipped: {}, for this is missing: {missing}", target.platform.folder))?
+            }
             (missing, false) => bail!("{} cannot be built, for this is missing: {missing}", target.platform.folder),
         }
     }

@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use anyhow::{Context, Result};
+use anyhow::{Result, ensure};
+use fmu_build::files;
 use fmu_build::interface::Variable;
 use fmu_build::settings::changes;
 use fmu_build::ssp::parameters;
@@ -10,22 +11,32 @@ use uam::interface::controller::ControllerUnit;
 use uam::interface::plant::PlantUnit;
 use uam::scenarios::{Extent, Scenario};
 
-use super::wrote;
+use crate::terminal::wrote;
 
-pub fn execute(scenario: &Scenario, out: &Path) -> Result<()> {
-    let Scenario { id, title, structure, parameters, .. } = scenario;
-    std::fs::create_dir_all(out).with_context(|| format!("cannot make the folder {}", out.display()))?;
+pub fn execute(name_or_file: &str, out: &Path) -> Result<()> {
+    let scenario = super::scenario(name_or_file)?;
+    let Scenario { id, title, structure, parameters, .. } = &scenario;
+    files::create_folder(out)?;
     let set = |changes: Vec<Variable>| parameters::set(id, title, &changes.iter().collect::<Vec<_>>());
-    let files = [
+    let texts = [
         (format!("{id}.toml"), scenario.write(Extent::Changes)),
         (format!("{id}.controller.ssv"), set(changes::<ControllerUnit>(*structure, parameters))?),
         (format!("{id}.plant.ssv"), set(changes::<PlantUnit>(*structure, parameters))?),
     ];
-    let write = |(name, text): &(String, String)| {
+    let mut written = Vec::new();
+    for (name, text) in texts {
         let path = out.join(name);
-        std::fs::write(&path, text).with_context(|| format!("cannot write {}", path.display()))?;
-        Ok(path)
-    };
-    wrote(&files.iter().map(write).collect::<Result<Vec<_>>>()?);
-    Ok(())
+        ensure!(
+            !is_same_file(&path, Path::new(name_or_file)),
+            "{} is the file that the simulation is read from; name another folder with --out",
+            path.display()
+        );
+        written.push(files::write(&path, text.as_bytes())?);
+    }
+    wrote(&written)
+}
+
+/// Whether both paths lead to one file.
+fn is_same_file(one: &Path, other: &Path) -> bool {
+    one.canonicalize().is_ok_and(|one| other.canonicalize().is_ok_and(|other| one == other))
 }

@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use anyhow::{Context, Result};
+use anyhow::Result;
+use fmu_build::BuildOptions;
 use fmu_build::coupling::Pair;
 use fmu_build::record::{Recording, write_csv};
 use fmu_build::report;
@@ -10,33 +11,34 @@ use fmu_build::run::Run;
 use fmu_build::study::{self, Case, Summary};
 use uam::Structure;
 
-use super::{Progress, build_here, complain, speed, wrote};
+use super::{Progress, build_files, complain, speed};
+use crate::terminal::{say, wrote};
 
 /// The csv holds every so many communication points: fine enough to plot, small enough for spreadsheets.
 const CSV_STRIDE: usize = 10;
 
 pub fn execute(out: &Path) -> Result<()> {
-    println!("Building both FMUs for {} ...", Structure::DEFAULT);
-    let built = build_here(Structure::DEFAULT, out)?;
+    say(format_args!("Building both FMUs for {} ...", Structure::DEFAULT))?;
+    let built = build_files(&BuildOptions::new(Structure::DEFAULT, out))?;
     let pair = Pair::open(&built.controller, &built.plant)?;
 
     let cases = run_all(&pair)?;
     let runs = || cases.iter().flat_map(|case| &case.runs);
-    println!("\nThe pick-up of thesis 4.3, {} coupled runs of both FMUs\n", runs().count());
-    let summaries: Vec<Summary> = cases.iter().map(Case::summary).collect();
-    println!("{}\n", study::pick_up_table(&summaries));
-    complain(&summaries);
-    println!("{}\n", speed(&runs().collect::<Vec<_>>()));
-
     let (csv, page) = (out.join("pick-up.csv"), out.join("report.html"));
     let exact: Vec<(String, &Recording)> =
         cases.iter().map(|case| (prefix(case.exact()), &case.exact().recording)).collect();
     let columns: Vec<(&str, &Recording)> =
         exact.iter().map(|(prefix, recording)| (prefix.as_str(), *recording)).collect();
-    write_csv(&csv, &columns, CSV_STRIDE).with_context(|| format!("cannot write {}", csv.display()))?;
-    report::pick_up::report(&cases)?.write(&page).with_context(|| format!("cannot write {}", page.display()))?;
-    wrote(&[built.controller, built.plant, built.ssp, csv, page]);
-    Ok(())
+    let mut files = Vec::from(built.files);
+    files.push(write_csv(&csv, &columns, CSV_STRIDE)?);
+    files.push(report::pick_up::report(&cases)?.write(&page)?);
+
+    say(format_args!("\nThe pick-up of thesis 4.3, {} coupled runs of both FMUs\n", runs().count()))?;
+    let summaries = cases.iter().map(Case::summary).collect::<Result<Vec<Summary>, _>>()?;
+    say(format_args!("{}\n", study::pick_up_table(&summaries)))?;
+    complain(&summaries)?;
+    say(format_args!("{}\n", speed(&runs().collect::<Vec<_>>())))?;
+    wrote(&files)
 }
 
 fn run_all(pair: &Pair) -> Result<Vec<Case>> {

@@ -2,14 +2,15 @@
 
 use std::path::Path;
 
-use anyhow::{Context, Result, anyhow};
-use fmu_build::coupling::{Order, Pair, Schedule};
+use anyhow::{Result, anyhow};
+use fmu_build::coupling::{Order, Schedule};
 use fmu_build::record::{Names, write_csv};
-use fmu_build::report;
 use fmu_build::run::run;
+use fmu_build::{files, report};
 
-use super::{Progress, build_here, folder, speed, wrote};
+use super::{Pairs, Progress, speed};
 use crate::cli::SimulateArguments;
+use crate::terminal::{say, wrote};
 
 pub fn execute(arguments: &SimulateArguments, out: &Path) -> Result<()> {
     let mut scenario = super::scenario(&arguments.scenario)?;
@@ -18,27 +19,27 @@ pub fn execute(arguments: &SimulateArguments, out: &Path) -> Result<()> {
     }
     let schedule =
         Schedule::new(0.0, arguments.stop.unwrap_or(scenario.duration), arguments.step.unwrap_or(scenario.step))?;
+    files::create_folder(out)?;
     let order = if arguments.sequential { Order::PlantFirst } else { Order::Parallel };
 
-    let built = build_here(scenario.structure, &folder(out, scenario.structure))?;
-    let pair = Pair::open(&built.controller, &built.plant)?;
+    let pairs = Pairs::build([scenario.structure])?;
+    let pair = pairs.of(scenario.structure)?;
     let names = if arguments.all_outputs {
         Names::all_outputs(pair.controller.description(), pair.plant.description())
     } else {
         Names::standard(scenario.structure)
     };
     let progress = Progress::new(schedule.steps() as u64 + 1, "Simulating")?;
-    let run = run(&pair, &scenario, &schedule, order, &names, &|| progress.point());
+    let run = run(pair, &scenario, &schedule, order, &names, &|| progress.point());
     progress.finish();
     let run = run?;
 
     let report = report::single::report(&run, &schedule)?;
-    println!("{}: {}\n\n{}\n", scenario.id, scenario.title, report.table);
-    println!("{}\n", speed(&[&run]));
     let (csv, page) = (out.join(format!("{}.csv", scenario.id)), out.join(format!("{}.html", scenario.id)));
-    write_csv(&csv, &[("", &run.recording)], 1).with_context(|| format!("cannot write {}", csv.display()))?;
-    report.write(&page).with_context(|| format!("cannot write {}", page.display()))?;
-    wrote(&[csv, page]);
+    let files = [write_csv(&csv, &[("", &run.recording)], 1)?, report.write(&page)?];
+    say(format_args!("{}: {}\n\n{}\n", scenario.id, scenario.title, report.table))?;
+    say(format_args!("{}\n", speed(&[&run])))?;
+    wrote(&files)?;
     match run.stopped {
         None => Ok(()),
         Some(stopped) => Err(anyhow!(stopped).context("the files hold what came out until then")),

@@ -1,6 +1,5 @@
 //! Every simulation of the thesis, beside what it says.
 
-use std::path::Path;
 use std::time::Instant;
 
 use anyhow::Result;
@@ -9,11 +8,12 @@ use uam::scenarios::{PICK_UP, catalogue};
 
 use super::{Pairs, Progress, complain};
 use crate::cli::PrintArguments;
+use crate::terminal::say;
 
-pub fn execute(arguments: &PrintArguments, out: &Path) -> Result<()> {
+pub fn execute(arguments: &PrintArguments) -> Result<()> {
     let mut scenarios = catalogue()?;
     scenarios.retain(|scenario| scenario.id != PICK_UP);
-    let pairs = Pairs::build(out, scenarios.iter().map(|scenario| scenario.structure))?;
+    let pairs = Pairs::build(scenarios.iter().map(|scenario| scenario.structure))?;
     let progress = Progress::of(&scenarios, "Simulating")?;
     let begin = Instant::now();
     let summaries = study::run_all(scenarios, &|structure| pairs.of(structure), &|| progress.point());
@@ -23,17 +23,13 @@ pub fn execute(arguments: &PrintArguments, out: &Path) -> Result<()> {
 
     let table = study::table(&summaries);
     if arguments.markdown {
-        print!("{}", table.markdown_with_remarks());
-        return Ok(());
+        return say(table.markdown_with_remarks().trim_end());
     }
     let (statements, agreeing) = table.agreement();
-    println!("{table}\n\n{agreeing} of {statements} numbers agree with the thesis.");
-    for remark in table.remarks() {
-        println!("  ✗ {remark}");
-    }
+    say(format_args!("{table}\n\n{agreeing} of {statements} numbers agree with the thesis."))?;
+    table.remarks().try_for_each(|remark| say(format_args!("  ✗ {remark}")))?;
     let outcomes = || summaries.iter().flat_map(|summary| &summary.outcomes);
-    complain(&summaries);
+    complain(&summaries)?;
     let simulated: f64 = outcomes().map(|outcome| outcome.simulated).sum();
-    println!("{} runs, {simulated:.0} s simulated in {elapsed:.1} s.", outcomes().count());
-    Ok(())
+    say(format_args!("{} runs, {simulated:.0} s simulated in {elapsed:.1} s.", outcomes().count()))
 }

@@ -1,7 +1,5 @@
 //! A simulation with some numbers changed.
 
-use std::path::Path;
-
 use anyhow::{Result, ensure};
 use fmu_build::claims::{self, Claim, DISCRETIZATIONS, Quantity, Row, Table};
 use fmu_build::study::{self, Summary};
@@ -11,8 +9,9 @@ use uam::scenarios::{Scenario, find};
 
 use super::{Pairs, Progress, complain};
 use crate::cli::VaryArguments;
+use crate::terminal::say;
 
-pub fn execute(arguments: &VaryArguments, out: &Path) -> Result<()> {
+pub fn execute(arguments: &VaryArguments) -> Result<()> {
     let scenario = super::scenario(&arguments.scenario)?;
     let variants = variants(arguments)?;
     let claims: Vec<&Claim> = claims::about(&scenario.id).collect();
@@ -27,7 +26,7 @@ pub fn execute(arguments: &VaryArguments, out: &Path) -> Result<()> {
         .iter()
         .flat_map(|(_, changes)| scenarios.iter().map(|scenario| vary(scenario, changes)))
         .collect::<Result<_, _>>()?;
-    let pairs = Pairs::build(out, varied.iter().map(|scenario| scenario.structure))?;
+    let pairs = Pairs::build(varied.iter().map(|scenario| scenario.structure))?;
     let progress = Progress::of(&varied, "Simulating")?;
     let summaries = study::run_all(varied, &|structure| pairs.of(structure), &|| progress.point());
     progress.finish();
@@ -58,12 +57,11 @@ pub fn execute(arguments: &VaryArguments, out: &Path) -> Result<()> {
         table.add(format!("{} · {} · by {}", scenarios[0].id, discretization.name(), names.join(", ")), rows);
     }
     if arguments.print.markdown {
-        print!("{}", table.markdown());
+        say(table.markdown().trim_end())?
     } else {
-        println!("{table}");
+        say(table)?
     }
-    complain(&summaries);
-    Ok(())
+    complain(&summaries)
 }
 
 /// A heading, and names with their values.

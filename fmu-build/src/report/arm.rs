@@ -9,6 +9,8 @@ use uam::reference::ReferenceKind;
 use super::Series;
 use super::decimate::envelope;
 use super::pose::Pose;
+use crate::record::NotRecorded;
+use crate::run::Run;
 
 /// Half the width of the drawn UAV \[m\]; the model knows no size.
 const SPAN: f64 = 0.24;
@@ -87,36 +89,38 @@ impl Window {
 }
 
 /// One strip of frames per series, all in the same window.
-#[must_use]
-pub fn strips(series: &[Series<'_>], instants: &[f64]) -> Markup {
-    let frames: Vec<Vec<(f64, Pose)>> = series.iter().map(|series| poses(series, instants)).collect();
+///
+/// # Errors
+/// If the position of a part was not recorded.
+pub fn strips(series: &[Series<'_>], instants: &[f64]) -> Result<Markup, NotRecorded> {
+    let frames = series.iter().map(|series| poses(series, instants)).collect::<Result<Vec<_>, _>>()?;
     let window = Window::around(frames.iter().flatten().flat_map(|(_, pose)| {
         let sides = [-SPAN, SPAN].map(|x| pose.base + Turn::by(pose.roll).apply(vec2(x, 0.05)));
         let below = pose.hand - vec2(0.0, SPRING + PAYLOAD);
         pose.joints.iter().copied().chain(sides).chain([below]).collect::<Vec<_>>()
     }));
-    html! {
+    Ok(html! {
         @for (series, frames) in series.iter().zip(&frames) {
             div.strip {
                 h3 style={ "color:" (series.paint.css()) } { (series.label) }
-                (strip(series, frames, window))
+                (strip(series, frames, window)?)
             }
         }
-    }
+    })
 }
 
-fn poses(series: &Series<'_>, instants: &[f64]) -> Vec<(f64, Pose)> {
-    let run = series.run;
-    let row = |&time: &f64| run.recording.row_at(time).map(|row| (time, Pose::at(&run.scenario, &run.recording, row)));
-    instants.iter().filter_map(row).collect()
+fn poses(series: &Series<'_>, instants: &[f64]) -> Result<Vec<(f64, Pose)>, NotRecorded> {
+    let Run { scenario, recording, .. } = series.run;
+    let rows = instants.iter().filter_map(|&time| Some((time, recording.row_at(time)?)));
+    rows.map(|(time, row)| Ok((time, Pose::at(scenario, recording, row)?))).collect()
 }
 
-fn strip(series: &Series<'_>, frames: &[(f64, Pose)], window: Window) -> Markup {
+fn strip(series: &Series<'_>, frames: &[(f64, Pose)], window: Window) -> Result<Markup, NotRecorded> {
     let size = window.size();
     let gap = 10.0;
     let width = (size.x + gap) * f64::from(u32::try_from(frames.len()).unwrap_or(u32::MAX));
-    let capture = Pose::capture(&series.run.scenario, &series.run.recording);
-    html! {
+    let capture = Pose::capture(&series.run.scenario, &series.run.recording)?;
+    Ok(html! {
         svg.arm viewBox={ "-1 0 " (width + 2.0 - gap) " " (size.y + TITLE + 1.0) } role="img"
             aria-label="The vehicle at some instants" {
             @for (i, (time, pose)) in frames.iter().enumerate() {
@@ -124,21 +128,21 @@ fn strip(series: &Series<'_>, frames: &[(f64, Pose)], window: Window) -> Markup 
                 g transform={ "translate(" (left) " " (TITLE) ")" } {
                     rect x="0" y="0" width=(size.x) height=(size.y) rx="6" fill="#fafbfc" stroke="#e8ecf0" {}
                     text x="4" y="-7" { "t = " ((1e3 * time).round() / 1e3) " s" }
-                    (frame(series, pose, capture, window))
+                    (frame(series, pose, capture, window)?)
                 }
             }
         }
-    }
+    })
 }
 
-fn frame(series: &Series<'_>, pose: &Pose, capture: Option<Vec2>, window: Window) -> Markup {
+fn frame(series: &Series<'_>, pose: &Pose, capture: Option<Vec2>, window: Window) -> Result<Markup, NotRecorded> {
     let recording = &series.run.recording;
     let colour = series.paint.css();
-    let wanted = envelope(recording.column("reference.x"), recording.column("reference.y").iter().copied(), 100);
+    let wanted = envelope(recording.column("reference.x")?, recording.column("reference.y")?.iter().copied(), 100);
     let start = window.px(vec2(0.0, 0.0));
     let payload = if pose.attached { Some(pose.hand) } else { capture };
     let support = &series.run.scenario.parameters.support;
-    html! {
+    Ok(html! {
         line x1=(start.x) x2=(start.x) y1="0" y2=(window.size().y) stroke="#cfd6dd" stroke-dasharray="3 4" {}
         polyline points=(window.path(wanted.into_iter().map(|(x, y)| vec2(x, y)))) fill="none" stroke="#97a3af"
             stroke-width="1.5" {}
@@ -158,7 +162,7 @@ fn frame(series: &Series<'_>, pose: &Pose, capture: Option<Vec2>, window: Window
             rect x=(corner.x) y=(corner.y) width=(SCALE * PAYLOAD) height=(SCALE * PAYLOAD) rx="2" fill="#333a45"
                 fill-opacity=(if pose.attached { "0.9" } else { "0.35" }) {}
         }
-    }
+    })
 }
 
 /// Frame, hub and rotors of a multicopter, seen from the front.

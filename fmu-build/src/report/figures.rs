@@ -8,6 +8,7 @@ use uam::parameters::Balance;
 use super::chart::{Curve, Panel, Scale, TIME};
 use super::{Error, Series, arm, panels};
 use crate::claims::Quantity;
+use crate::run::Run;
 
 /// What a figure is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -50,25 +51,26 @@ pub struct Figure {
 /// # Errors
 /// If a figure cannot be drawn.
 pub fn all(series: &[Series<'_>]) -> Result<Vec<Figure>, Error> {
-    let mut figures = vec![vehicle(series), base(series, None)?, error(series)?, joints(series)?, controls(series)?];
+    let mut figures = vec![vehicle(series)?, base(series, None)?, error(series)?, joints(series)?, controls(series)?];
     figures.push(moment(series)?);
-    if series.iter().any(|series| series.run.recording.column("support.force").iter().any(|&force| force > 0.0)) {
+    let forces = series.iter().map(|series| series.run.recording.column("support.force"));
+    if forces.collect::<Result<Vec<_>, _>>()?.concat().iter().any(|&force| force > 0.0) {
         figures.push(support(series)?);
     }
     Ok(figures)
 }
 
-fn vehicle(series: &[Series<'_>]) -> Figure {
+fn vehicle(series: &[Series<'_>]) -> Result<Figure, Error> {
     let instants = series.first().map(arm::instants).unwrap_or_default();
-    let body = html! { (arm::strips(series, &instants)) };
-    Figure {
+    let body = html! { (arm::strips(series, &instants)?) };
+    Ok(Figure {
         topic: Topic::Vehicle,
         title: "The vehicle at some instants".to_owned(),
         body,
         caption: "Inertial frame, to scale but for the sketched UAV, payload and spring. Grey: the path that the end \
                   effector is to follow; dashed: where the UAV's centre of mass was at the start."
             .to_owned(),
-    }
+    })
 }
 
 /// Pose of the UAV up to `until`; a run whose arm has left its workspace ends there.
@@ -77,9 +79,9 @@ fn vehicle(series: &[Series<'_>]) -> Figure {
 /// If the figure cannot be drawn.
 pub fn base(series: &[Series<'_>], until: Option<f64>) -> Result<Figure, Error> {
     let panels = [
-        panel(series, "x, to the right [mm]", "base.x", 1e3, until),
-        panel(series, "y, upwards [mm]", "base.y", 1e3, until),
-        panel(series, "roll, counter-clockwise [°]", "base.roll", 1f64.to_degrees(), until),
+        panel(series, "x, to the right [mm]", "base.x", 1e3, until)?,
+        panel(series, "y, upwards [mm]", "base.y", 1e3, until)?,
+        panel(series, "roll, counter-clockwise [°]", "base.roll", 1f64.to_degrees(), until)?,
     ];
     Ok(Figure {
         topic: Topic::Base,
@@ -99,15 +101,15 @@ pub fn error(series: &[Series<'_>]) -> Result<Figure, Error> {
         .rev()
         .map(|series| {
             let recording = &series.run.recording;
-            Curve::of_peaks(series.paint, recording.times(), recording.tracking_error().into_iter())
+            Ok(Curve::of_peaks(series.paint, recording.times(), recording.tracking_error()?.into_iter()))
         })
-        .collect();
+        .collect::<Result<_, Error>>()?;
     let panels = [Panel {
         across: TIME,
         axis: "distance [m]".to_owned(),
         scale: Scale::Logarithmic,
         curves,
-        marks: marks(series),
+        marks: marks(series)?,
     }];
     Ok(Figure {
         topic: Topic::Error,
@@ -126,14 +128,14 @@ fn joints(series: &[Series<'_>]) -> Result<Figure, Error> {
     let degrees = 1f64.to_degrees();
     let mut panels: Vec<Panel> = (1..=structure.links)
         .map(|n| panel(series, &format!("joint {n} [°]"), &format!("joint[{n}].position"), degrees, None))
-        .collect();
+        .collect::<Result<_, _>>()?;
     match structure.balance {
         Balance::None => {}
         Balance::Counterweight => {
-            panels.push(panel(series, "counterweight [mm]", "counterweight.position", 1e3, None));
+            panels.push(panel(series, "counterweight [mm]", "counterweight.position", 1e3, None)?);
         }
         Balance::Element => {
-            panels.push(panel(series, "balance element [°]", "balance_element.position", degrees, None));
+            panels.push(panel(series, "balance element [°]", "balance_element.position", degrees, None)?);
         }
     }
     Ok(Figure {
@@ -153,15 +155,15 @@ pub fn rates(series: &[Series<'_>]) -> Result<Figure, Error> {
     let Some(Series { run, .. }) = series.first() else { return Err(Error::Empty) };
     let structure = run.scenario.structure;
     let joint = |n| panel(series, &format!("joint {n} [rad/s]"), &format!("joint[{n}].rate_command"), 1.0, None);
-    let mut panels: Vec<Panel> = (1..=structure.links).map(joint).collect();
+    let mut panels: Vec<Panel> = (1..=structure.links).map(joint).collect::<Result<_, _>>()?;
     if let Some(name) = structure.balance.prefix() {
         let (axis, factor) = match structure.balance {
             Balance::Counterweight => ("counterweight [mm/s]", 1e3),
             _ => ("balance element [rad/s]", 1.0),
         };
-        panels.push(panel(series, axis, &format!("{name}.rate_command"), factor, None));
+        panels.push(panel(series, axis, &format!("{name}.rate_command"), factor, None)?);
     }
-    let status = run.recording.column("ik.status");
+    let status = run.recording.column("ik.status")?;
     let met: Vec<String> = Status::Ok
         .items()
         .iter()
@@ -170,7 +172,7 @@ pub fn rates(series: &[Series<'_>]) -> Result<Figure, Error> {
         .map(|(item, number)| format!("{number} {}: {}", item.name, item.description))
         .collect();
     if met.len() > 1 {
-        panels.push(panel(series, "ik.status", "ik.status", 1.0, None));
+        panels.push(panel(series, "ik.status", "ik.status", 1.0, None)?);
     }
     Ok(Figure {
         topic: Topic::Rates,
@@ -182,8 +184,8 @@ pub fn rates(series: &[Series<'_>]) -> Result<Figure, Error> {
 
 fn controls(series: &[Series<'_>]) -> Result<Figure, Error> {
     let panels = [
-        panel(series, "thrust U1 [N]", "autopilot.thrust", 1.0, None),
-        panel(series, "torque U2 [N m]", "autopilot.torque", 1.0, None),
+        panel(series, "thrust U1 [N]", "autopilot.thrust", 1.0, None)?,
+        panel(series, "torque U2 [N m]", "autopilot.torque", 1.0, None)?,
     ];
     Ok(Figure {
         topic: Topic::Controls,
@@ -194,7 +196,7 @@ fn controls(series: &[Series<'_>]) -> Result<Figure, Error> {
 }
 
 fn moment(series: &[Series<'_>]) -> Result<Figure, Error> {
-    let panels = [panel(series, "moment [N m]", "transmitted.moment", 1.0, None)];
+    let panels = [panel(series, "moment [N m]", "transmitted.moment", 1.0, None)?];
     Ok(Figure {
         topic: Topic::Moment,
         title: "Moment of the arm on the UAV".to_owned(),
@@ -205,7 +207,7 @@ fn moment(series: &[Series<'_>]) -> Result<Figure, Error> {
 }
 
 fn support(series: &[Series<'_>]) -> Result<Figure, Error> {
-    let panels = [panel(series, "force [N]", "support.force", 1.0, None)];
+    let panels = [panel(series, "force [N]", "support.force", 1.0, None)?];
     Ok(Figure {
         topic: Topic::Support,
         title: "Force of the support on the payload".to_owned(),
@@ -215,33 +217,33 @@ fn support(series: &[Series<'_>]) -> Result<Figure, Error> {
 }
 
 /// One variable of every series.
-fn panel(series: &[Series<'_>], axis: &str, column: &str, factor: f64, until: Option<f64>) -> Panel {
+fn panel(series: &[Series<'_>], axis: &str, column: &str, factor: f64, until: Option<f64>) -> Result<Panel, Error> {
     let curve = |series: &Series<'_>| {
         let recording = &series.run.recording;
-        let end = until.map_or(recording.len(), |until| {
-            let lost = Quantity::LostAt.measure(recording);
-            recording.row_at(until.min(lost)).map_or(0, |row| row + 1)
-        });
-        let values = recording.column(column).iter().take(end).map(|value| factor * value);
-        Curve::new(series.paint, recording.times(), values)
+        let end = match until {
+            None => recording.len(),
+            Some(until) => {
+                let lost = Quantity::LostAt.measure(recording)?;
+                recording.row_at(until.min(lost)).map_or(0, |row| row + 1)
+            }
+        };
+        let values = recording.column(column)?.iter().take(end).map(|value| factor * value);
+        Ok(Curve::new(series.paint, recording.times(), values))
     };
-    Panel {
+    Ok(Panel {
         across: TIME,
         axis: axis.to_owned(),
         scale: Scale::Linear,
         // The first series is the one to look at: it is drawn last, on top.
-        curves: series.iter().rev().map(curve).collect(),
-        marks: marks(series),
-    }
+        curves: series.iter().rev().map(curve).collect::<Result<_, Error>>()?,
+        marks: marks(series)?,
+    })
 }
 
-fn marks(series: &[Series<'_>]) -> Vec<(f64, &'static str)> {
-    let grasp = |series: &Series<'_>| {
-        let recording = &series.run.recording;
-        let row = recording.column("payload.attached").iter().position(|&attached| attached > 0.5)?;
-        (row > 0).then(|| (recording.times()[row], "grasp"))
-    };
-    series.first().and_then(grasp).into_iter().collect()
+fn marks(series: &[Series<'_>]) -> Result<Vec<(f64, &'static str)>, Error> {
+    let Some(Series { run: Run { recording, .. }, .. }) = series.first() else { return Err(Error::Empty) };
+    let grasp = recording.column("payload.attached")?.iter().position(|&attached| attached > 0.5);
+    Ok(grasp.filter(|row| *row > 0).map(|row| (recording.times()[row], "grasp")).into_iter().collect())
 }
 
 fn grid(series: &[Series<'_>], panels: &[Panel]) -> Result<Markup, Error> {

@@ -6,6 +6,7 @@ use super::{Error, Figure, Report, Series, Topic, figures, style};
 use uam::scenarios::PICK_UP;
 
 use crate::claims::Quantity;
+use crate::record::NotRecorded;
 use crate::run::Run;
 use crate::study::{self, Case};
 
@@ -17,7 +18,9 @@ const AFTERWARDS: f64 = 1.0;
 /// # Errors
 /// If a case is missing or a figure cannot be drawn.
 pub fn report(cases: &[Case]) -> Result<Report, Error> {
-    let find = |id: &str| cases.iter().find(|case| case.scenario.id == id).ok_or(Error::Empty);
+    let find = |scenario: &'static str| {
+        cases.iter().find(|case| case.scenario.id == scenario).ok_or(Error::Missing { scenario })
+    };
     let (extended, minimum) = (find(PICK_UP)?, find("4.3a")?);
     let pick_up = both(extended.exact(), minimum.exact());
     let mut figures = figures::all(&pick_up)?;
@@ -25,7 +28,7 @@ pub fn report(cases: &[Case]) -> Result<Report, Error> {
         if figure.topic == Topic::Error {
             figure.body = figures::error(&with_euler(pick_up, extended, minimum))?.body;
         }
-        figure.caption = format!("{} {}", figure.caption, remark(figure.topic, &pick_up));
+        figure.caption = format!("{} {}", figure.caption, remark(figure.topic, &pick_up)?);
     }
     let (extended, minimum) = (find("4.3c-extended-jacobian")?, find("4.3c-minimum-norm")?);
     figures.push(growing_swings(&both(extended.exact(), minimum.exact()))?);
@@ -48,7 +51,7 @@ pub fn report(cases: &[Case]) -> Result<Report, Error> {
                 code { "exact" } ", and so are the figures."
             }
         },
-        table: study::pick_up_table(&cases.iter().map(Case::summary).collect::<Vec<_>>()),
+        table: study::pick_up_table(&cases.iter().map(Case::summary).collect::<Result<Vec<_>, _>>()?),
         figures,
     })
 }
@@ -76,10 +79,11 @@ fn with_euler<'a>(
 }
 
 /// What one sees, with the numbers of these runs.
-fn remark(topic: Topic, [extended, minimum]: &[Series<'_>; 2]) -> String {
-    let shown =
-        |series: &Series<'_>, quantity: Quantity| quantity.show(quantity.measure(&series.run.recording)).to_string();
-    match topic {
+fn remark(topic: Topic, [extended, minimum]: &[Series<'_>; 2]) -> Result<String, NotRecorded> {
+    let shown = |series: &Series<'_>, quantity: Quantity| {
+        Ok(quantity.show(quantity.measure(&series.run.recording)?).to_string())
+    };
+    Ok(match topic {
         Topic::Vehicle => {
             "With the extended Jacobian the inner links fold back while the last one reaches out, so that what the UAV \
              carries stays balanced below it."
@@ -90,39 +94,39 @@ fn remark(topic: Topic, [extended, minimum]: &[Series<'_>; 2]) -> String {
              extended Jacobian it rolls by no more than {} and ends {} to the right, so that it hangs again where the \
              common centre of mass of vehicle and payload was. Either way it sinks by {} and more while the load comes \
              off the support, for the autopilot does not know of the payload.",
-            shown(minimum, Quantity::Roll),
-            shown(minimum, Quantity::FarthestRight),
-            shown(extended, Quantity::Roll),
-            shown(extended, Quantity::FinalX),
-            shown(extended, Quantity::Sinking),
+            shown(minimum, Quantity::Roll)?,
+            shown(minimum, Quantity::FarthestRight)?,
+            shown(extended, Quantity::Roll)?,
+            shown(extended, Quantity::FinalX)?,
+            shown(extended, Quantity::Sinking)?,
         ),
         Topic::Error => format!(
             "The controller knows nothing but its own prediction, and yet the end effector is never farther from its \
              reference than {} (extended Jacobian) and {} (minimum norm). The pale curves are the thesis' own step.",
-            shown(extended, Quantity::TrackingError),
-            shown(minimum, Quantity::TrackingError),
+            shown(extended, Quantity::TrackingError)?,
+            shown(minimum, Quantity::TrackingError)?,
         ),
         Topic::Joints => "Both follow the same path of the end effector with different joint motions.".to_owned(),
         Topic::Rates | Topic::Reach => String::new(),
         Topic::Controls => format!(
             "The torque needed to hold the roll is {} at most with minimum norm, {} with the extended Jacobian. The \
              thrust rises by the weight of the payload.",
-            shown(minimum, Quantity::Torque),
-            shown(extended, Quantity::Torque),
+            shown(minimum, Quantity::Torque)?,
+            shown(extended, Quantity::Torque)?,
         ),
         Topic::Moment => format!(
             "Up to {} with minimum norm; {} with the extended Jacobian, which is what it is for.",
-            shown(minimum, Quantity::Moment),
-            shown(extended, Quantity::Moment),
+            shown(minimum, Quantity::Moment)?,
+            shown(extended, Quantity::Moment)?,
         ),
         Topic::Support => "It falls to zero as the path rises and the spring is relieved.".to_owned(),
-    }
+    })
 }
 
 /// The same motion with a roll control that is unstable together with the arm.
 fn growing_swings(series: &[Series<'_>; 2]) -> Result<Figure, Error> {
     let [extended, minimum] = series;
-    let lost = Quantity::LostAt.measure(&minimum.run.recording);
+    let lost = Quantity::LostAt.measure(&minimum.run.recording)?;
     let until = if lost.is_finite() { lost + AFTERWARDS } else { minimum.run.scenario.duration };
     let mut figure = figures::base(series, Some(until))?;
     figure.title = format!("Motion of the UAV with roll kd = {}", minimum.run.scenario.parameters.autopilot.roll.kd);
@@ -131,7 +135,7 @@ fn growing_swings(series: &[Series<'_>; 2]) -> Result<Figure, Error> {
          arm's reach (the curve ends there). The extended Jacobian gives the roll control nothing to do: it rolls by \
          {} at most.",
         Quantity::LostAt.show(lost),
-        Quantity::Roll.show(Quantity::Roll.measure(&extended.run.recording)),
+        Quantity::Roll.show(Quantity::Roll.measure(&extended.run.recording)?),
     );
     Ok(figure)
 }

@@ -4,7 +4,7 @@ use uam::parameters::Balance;
 use uam::planar::{Turn, Vec2, vec2};
 use uam::scenarios::Scenario;
 
-use crate::record::Recording;
+use crate::record::{NotRecorded, Recording};
 
 /// Points of the vehicle in the inertial frame \[m\].
 #[derive(Debug, Clone, PartialEq)]
@@ -27,17 +27,19 @@ pub struct Pose {
 
 impl Pose {
     /// The vehicle at a row of the recording of a scenario.
-    #[must_use]
-    pub fn at(scenario: &Scenario, recording: &Recording, row: usize) -> Self {
-        let value = |name: &str| recording.column(name).get(row).copied().unwrap_or_default();
+    ///
+    /// # Errors
+    /// If the recording lacks the position of a part.
+    pub fn at(scenario: &Scenario, recording: &Recording, row: usize) -> Result<Self, NotRecorded> {
+        let value = |name: &str| Ok(recording.column(name)?.get(row).copied().unwrap_or_default());
         let parameters = &scenario.parameters;
-        let (base, roll) = (vec2(value("base.x"), value("base.y")), value("base.roll"));
+        let (base, roll) = (vec2(value("base.x")?, value("base.y")?), value("base.roll")?);
         let body = Turn::by(roll);
         let mut angle = roll;
         let mut joints = vec![base + body.apply(vec2(parameters.mount.x, parameters.mount.y))];
         let mut hand = joints[0];
         for (i, link) in parameters.links.iter().take(scenario.structure.links).enumerate() {
-            angle += value(&format!("joint[{}].position", i + 1));
+            angle += value(&format!("joint[{}].position", i + 1))?;
             let from = joints[i];
             let along = Turn::by(angle).down();
             hand = from + parameters.payload.com * along;
@@ -47,23 +49,25 @@ impl Pose {
         match scenario.structure.balance {
             Balance::None => {}
             Balance::Counterweight => {
-                let place = vec2(value("counterweight.position"), parameters.counterweight.height);
+                let place = vec2(value("counterweight.position")?, parameters.counterweight.height);
                 counterweight = Some(base + body.apply(place));
             }
             Balance::Element => {
-                let along = Turn::by(roll + value("balance_element.position")).down();
+                let along = Turn::by(roll + value("balance_element.position")?).down();
                 balance_element = Some(base + parameters.balance_element.com * along);
             }
         }
-        let attached = value("payload.attached") > 0.5;
-        Self { base, roll, joints, counterweight, balance_element, hand, attached }
+        let attached = value("payload.attached")? > 0.5;
+        Ok(Self { base, roll, joints, counterweight, balance_element, hand, attached })
     }
 
     /// Where the payload is taken over, if it ever is.
-    #[must_use]
-    pub fn capture(scenario: &Scenario, recording: &Recording) -> Option<Vec2> {
-        let row = recording.column("payload.attached").iter().position(|&attached| attached > 0.5)?;
-        Some(Self::at(scenario, recording, row).hand)
+    ///
+    /// # Errors
+    /// As [`Pose::at`].
+    pub fn capture(scenario: &Scenario, recording: &Recording) -> Result<Option<Vec2>, NotRecorded> {
+        let row = recording.column("payload.attached")?.iter().position(|&attached| attached > 0.5);
+        row.map(|row| Ok(Self::at(scenario, recording, row)?.hand)).transpose()
     }
 }
 
@@ -89,12 +93,12 @@ mod tests {
         recording.push(0.0, [0.0; 7]);
         let quarter = std::f64::consts::FRAC_PI_2;
         recording.push(1.0, [1.0, 2.0, quarter, 0.0, 0.0, quarter, 1.0]);
-        let hanging = Pose::at(scenario, &recording, 0);
+        let hanging = Pose::at(scenario, &recording, 0).unwrap();
         assert!((hanging.joints[3] - vec2(0.0, -0.39)).norm() < 1e-12);
         // Rolled to the left by a quarter turn, the arm points right, and its last link up.
-        let turned = Pose::at(scenario, &recording, 1);
+        let turned = Pose::at(scenario, &recording, 1).unwrap();
         assert!((turned.joints[3] - vec2(1.26, 2.13)).norm() < 1e-12);
         assert!(turned.attached);
-        assert_eq!(Pose::capture(scenario, &recording), Some(turned.hand));
+        assert_eq!(Pose::capture(scenario, &recording), Ok(Some(turned.hand)));
     }
 }

@@ -10,7 +10,7 @@ use super::{Error, Figure, Report, Topic, style};
 use crate::claims::DISCRETIZATIONS;
 use crate::claims::{Cell, Row, Table};
 use crate::markdown;
-use crate::reach::{AGREEMENT, BALANCED, MOTIONS, Reach};
+use crate::reach::{AGREEMENT, BALANCED, MOTIONS, Reach, comes_to_its_end};
 
 /// The reaches of all motions beside those of the thesis. `results`: for each scenario those with each
 /// discretization.
@@ -18,12 +18,17 @@ use crate::reach::{AGREEMENT, BALANCED, MOTIONS, Reach};
 pub fn table(scenarios: &[Scenario], results: &[Reach]) -> Table {
     let mut table = Table::new(DISCRETIZATIONS.map(|discretization| discretization.name()));
     let cell = |way: f64, agrees| Cell { text: format!("{:.0} mm", 1e3 * way), agrees };
+    // No longer way was tried.
+    let at_least = |cell: Cell, reach: &Reach| match reach.trials.last() {
+        Some(last) if last.followed => Cell { text: format!("at least {}", cell.text), ..cell },
+        _ => cell,
+    };
     for ((motion, scenario), results) in MOTIONS.iter().zip(scenarios).zip(results.chunks(DISCRETIZATIONS.len())) {
         let agrees = |way: f64| Some((way / motion.thesis - 1.0).abs() <= AGREEMENT);
         let followed = Row {
             quantity: "follows the path up to".to_owned(),
             thesis: Some(motion.says),
-            cells: results.iter().map(|reach| cell(reach.followed, agrees(reach.followed))).collect(),
+            cells: results.iter().map(|reach| at_least(cell(reach.followed, agrees(reach.followed)), reach)).collect(),
             remark: None,
         };
         let balanced = Row {
@@ -52,6 +57,15 @@ pub fn markdown(results: &[Reach]) -> String {
         row
     });
     markdown::table(&head, &rows.collect::<Vec<_>>())
+}
+
+/// Which motions do not come to their end while they are simulated, so that none counts as followed.
+pub fn unfinished(scenarios: &[Scenario]) -> impl Iterator<Item = String> {
+    scenarios.iter().filter(|scenario| !comes_to_its_end(scenario)).map(|scenario| {
+        let Scenario { id, parameters, duration, .. } = scenario;
+        let end = parameters.reference.end();
+        format!("{id} follows nothing: its motion takes {end} s, of which {duration} s are simulated")
+    })
 }
 
 /// The table, and the moment on the UAV over the way.
@@ -97,8 +111,44 @@ pub fn report(scenarios: &[Scenario], results: &[Reach], changes: &str) -> Resul
                 "path, then the moment."
             }
             @if !changes.is_empty() { p { "Changed: " code { (changes) } "." } }
+            @for remark in unfinished(scenarios) { p { (remark) "." } }
         },
         table: table(scenarios, results),
         figures: vec![figure],
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use uam::scenarios::find;
+
+    use super::*;
+    use crate::reach::Trial;
+
+    fn reached(ways: [f64; 2], follows: f64) -> Reach {
+        let trials = ways.map(|way| Trial { way, followed: way <= follows, moment: 0.0 }).into();
+        Reach { followed: follows, balanced: 0.0, trials }
+    }
+
+    /// Where the longest way that was tried was followed, nobody knows how far the arm reaches.
+    #[test]
+    fn a_reach_without_an_edge_is_called_so() {
+        let scenarios = MOTIONS.map(|motion| find(motion.scenario).unwrap());
+        let results = [reached([0.12, 0.14], 0.13), reached([0.48, 0.49], 0.49)];
+        let text = table(&scenarios[..1], &results).to_string();
+        assert!(text.contains("130 mm ✓") && !text.contains("at least 130 mm"), "{text}");
+        assert!(text.contains("at least 490 mm ✗"), "{text}");
+    }
+
+    #[test]
+    fn motions_that_do_not_end_are_called_so() {
+        let mut scenarios = MOTIONS.map(|motion| find(motion.scenario).unwrap());
+        assert_eq!(unfinished(&scenarios).count(), 0);
+        scenarios[2].duration = 0.5;
+        let remarks: Vec<String> = unfinished(&scenarios).collect();
+        assert!(
+            matches!(&remarks[..], [remark] if remark.starts_with("4.4a") && remark.contains("0.5 s")),
+            "{remarks:?}"
+        );
+    }
 }

@@ -4,7 +4,7 @@ use maud::html;
 use uam::options::Choice;
 
 use super::{Error, Report, Series, Topic, figures, style};
-use crate::claims::{self, Quantity, Row, Table};
+use crate::claims::{self, Numbers, Quantity, Row, Table};
 use crate::coupling::Schedule;
 use crate::run::Run;
 
@@ -19,11 +19,12 @@ pub fn report(run: &Run, schedule: &Schedule) -> Result<Report, Error> {
     let discretization = scenario.parameters.ik.discretization.name();
     let as_in_thesis = schedule.stop() - schedule.start() == scenario.duration && schedule.step() == scenario.step;
     let mut table = Table::new([discretization]);
+    let numbers = Numbers::of(&run.recording, scenario.structure)?;
     let row = |quantity: Quantity| {
-        let value = quantity.measure(&run.recording);
+        let value = numbers.get(quantity);
         match claims::of(&scenario.id, quantity).filter(|_| as_in_thesis) {
             Some(claim) => Some(Row::of(claim, [Some(value)])),
-            // Not a number: the vehicle has nothing of this kind.
+            // Not a number: the vehicle has nothing of this kind, or the run is too short for it.
             None => (!value.is_nan()).then(|| Row::plain(quantity, [quantity.show(value).to_string()])),
         }
     };

@@ -13,8 +13,11 @@ pub const SSD: &str = "http://ssp-standard.org/SSP1/SystemStructureDescription";
 /// Name space of parameter sets.
 pub const SSV: &str = "http://ssp-standard.org/SSP1/SystemStructureParameterValues";
 
-/// Definitions of units, inside the element `name`.
+/// Definitions of units, inside the element `name`, which must not be empty: without units there is none.
 pub fn write_units(xml: &mut Xml, name: &str, units: &[&Unit]) -> io::Result<()> {
+    if units.is_empty() {
+        return Ok(());
+    }
     xml::list(xml, name, units, |xml, unit| {
         xml.create_element("ssc:Unit")
             .with_attribute(("name", unit.name))

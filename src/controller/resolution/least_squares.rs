@@ -48,7 +48,11 @@ impl Resolver {
         let wanted = self.set_going(vehicle, interval.beginning, &joints, wanted);
         let mut resolved = Resolved {
             rate: rate + wanted.rate,
-            status: if allowed.returning && wanted.status() == Status::Ok { Status::TaskLimited } else { wanted.status() },
+            status: if allowed.returning && wanted.status() == Status::Ok {
+                Status::TaskLimited
+            } else {
+                wanted.status()
+            },
             min_singular_value: wanted.min_singular_value,
             momentum: problem.moment.row.dot(&(rate + wanted.rate)),
             places: qp::FREE,

@@ -129,12 +129,7 @@ impl<const N: usize> Problem<N> {
 
     /// The same with other thresholds.
     #[inline]
-    pub(super) fn resolve_to(
-        &self,
-        axes: PathAxes,
-        without_moment: bool,
-        thresholds: &Thresholds,
-    ) -> PseudoInverse<N> {
+    pub(super) fn resolve_to(&self, axes: PathAxes, without_moment: bool, thresholds: &Thresholds) -> PseudoInverse<N> {
         let gram = Gram::new(&self.path, axes);
         // Where nothing is damped, without directions and their square roots: a third of the time.
         if gram.smallest >= thresholds.path * thresholds.path

@@ -76,9 +76,5 @@ fn weighted(
         reach: plain.reach * stretch * stretch,
     };
     let found = problem.resolve_to(axes, without_moment, &thresholds);
-    PseudoInverse {
-        rate: found.rate.component_mul(scale),
-        min_singular_value: unweighted.smallest.sqrt(),
-        ..found
-    }
+    PseudoInverse { rate: found.rate.component_mul(scale), min_singular_value: unweighted.smallest.sqrt(), ..found }
 }

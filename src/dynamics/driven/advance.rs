@@ -6,7 +6,7 @@ use crate::dynamics::advance::{MOST_STEPS, SAME_INSTANT, TUMBLING};
 use crate::dynamics::contact::{NO_GAP, lowest, switching_instant};
 use crate::dynamics::law::Scene;
 use crate::dynamics::{Account, Dynamics, Impulse, Loads, Motion, Node, Situation, in_inertial_frame};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::planar::{Turn, vec2};
 
 /// Longest internal step \[s\]: light links that start to swing are faster than their rates tell.
@@ -59,7 +59,7 @@ impl<const N: usize> Dynamics<N> {
             let longest = self.longest_driven_step(&phase, node, driven, state.contact);
             let most = MOST_STEPS * longest.min(sample_time);
             if left > most {
-                return Err(Error::StepTooLong { size, most });
+                return Err(self.too_long(size, most, self.turning(&node.rate), state.contact));
             }
             let piece = if until_sample < left - SAME_INSTANT { until_sample } else { left };
             let length = if piece > longest { piece / (piece / longest).ceil() } else { piece };

@@ -106,10 +106,10 @@ impl<const N: usize> Dynamics<N> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::defaults::default_parameters;
     use crate::dynamics::{Loads, Motion};
     use crate::parameters::{Actuation, BaseModel, Structure};
     use crate::planar::Vec2;
-    use crate::scenarios::default_parameters;
 
     /// The error after a fixed time falls by 2^6 when the steps are halved, on the real equations.
     #[test]

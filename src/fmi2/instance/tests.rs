@@ -110,9 +110,12 @@ fn inconsistent_parameters_block_outputs_only_and_can_be_corrected() {
     set(&mut toy, vr::GAIN, 7.0).unwrap();
     set(&mut toy, vr::LIMIT, 6.0).unwrap();
     assert_eq!(real(&mut toy, vr::GAIN), 7.0);
-    assert_eq!(message(toy.get(&[vr::POSITION], &mut [0.0])), "gain = 7 is above limit = 6");
+    assert_eq!(
+        message(toy.get(&[vr::POSITION], &mut [0.0])),
+        "the simulation cannot begin: gain = 7 is above limit = 6"
+    );
     toy.enter_initialization().unwrap();
-    assert_eq!(message(toy.exit_initialization()), "gain = 7 is above limit = 6");
+    assert_eq!(message(toy.exit_initialization()), "the simulation cannot begin: gain = 7 is above limit = 6");
     assert_eq!(toy.state(), State::Initialization);
     assert_eq!(toy.now.data.position, 0.0, "nothing half-written");
     set(&mut toy, vr::LIMIT, 8.0).unwrap();
