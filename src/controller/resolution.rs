@@ -161,7 +161,9 @@ impl Resolver {
         let found = match self.kind {
             Resolution::LeastSquares => return self.least_squares(vehicle, interval, problem),
             Resolution::Gradient if interval.aims == Aims::All => {
-                self.nearest(problem, &gradient::preferred(vehicle, interval.beginning, self.gradient_gain))
+                let preferred = gradient::preferred(vehicle, interval.beginning, self.gradient_gain);
+                let found = self.nearest(problem, &preferred);
+                if found.path_damped { self.near_singular(problem, &preferred) } else { found }
             }
             // The smallest rates: right pseudo-inverse of the generalized Jacobian (thesis 1.8), or one more row below it
             // (thesis 3.2, 3.3 and 3.6).
@@ -182,6 +184,17 @@ impl Resolver {
         let velocity = problem.velocity - problem.path * preferred;
         let added = self.along_path(&Problem { velocity, ..*problem }, false);
         PseudoInverse { rate: preferred + added.rate, ..added }
+    }
+
+    /// Near a singular configuration, where the path is damped: the smallest rates along it, and of the `preferred` ones
+    /// what moves the end effector in no direction, the less the nearer.
+    #[cold]
+    #[inline(never)]
+    fn near_singular<const N: usize>(&self, problem: &Problem<N>, preferred: &SVector<f64, N>) -> PseudoInverse<N> {
+        let found = self.along_path(problem, false);
+        let nearness = found.min_singular_value / (PATH_THRESHOLD * self.reach);
+        let beside = problem.padded().beside_path(&preferred.fixed_resize::<MAX_COORDINATES, 1>(0.0), self.axes);
+        PseudoInverse { rate: found.rate + beside.fixed_resize::<N, 1>(0.0) * (nearness * nearness), ..found }
     }
 
     /// What the limits allow. What balances the arm goes by a law of its own; its rate is fixed.

@@ -180,23 +180,18 @@ impl Problem<MAX_COORDINATES> {
         [strong, perp(strong)].map(|direction| self.path.transpose() * direction)
     }
 
-    /// What of the row of the second task moves the end effector in none of the `directions`, however hardly the arm moves
-    /// in them.
-    fn beside_path(&self, directions: &[SVector<f64, MAX_COORDINATES>; 2]) -> SVector<f64, MAX_COORDINATES> {
-        let [easily, hardly] = directions;
-        let Some(first) = easily.try_normalize(f64::MIN_POSITIVE) else { return self.moment.row };
-        let free = self.moment.row - first * first.dot(&self.moment.row);
-        let hardly = hardly - first * first.dot(hardly);
-        // In a singular configuration, what is left there is rounding.
-        match hardly.try_normalize(ROUNDING * easily.norm()) {
-            Some(second) => free - second * second.dot(&free),
-            None => free,
-        }
+    /// What of the rates, or of the row, `v` moves the end effector in no direction, however hardly the arm moves in it.
+    pub(super) fn beside_path(
+        &self,
+        v: &SVector<f64, MAX_COORDINATES>,
+        axes: PathAxes,
+    ) -> SVector<f64, MAX_COORDINATES> {
+        beside(v, &self.directions(&Gram::new(&self.path, axes)))
     }
 
     /// The share of the row of the second task that is left beside the path.
-    pub(super) fn share_beside_path(&self, gram: &Gram) -> f64 {
-        self.beside_path(&self.directions(gram)).norm() / self.moment.row.norm().max(f64::MIN_POSITIVE)
+    pub(super) fn share_beside_path(&self, axes: PathAxes) -> f64 {
+        self.beside_path(&self.moment.row, axes).norm() / self.moment.row.norm().max(f64::MIN_POSITIVE)
     }
 
     /// [`Problem::resolve`] wherever the arm is. For the largest number of coordinates: the library holds one copy.
@@ -219,7 +214,7 @@ impl Problem<MAX_COORDINATES> {
         let nearness = (min_singular_value / thresholds.path).min(1.0);
         let mut task_damped = false;
         if without_moment {
-            let free = self.beside_path(&directions);
+            let free = beside(&task.row, &directions);
             let size = task.row.norm();
             let share = free.norm() / size.max(f64::MIN_POSITIVE);
             let missing = (task.value - task.row.dot(&rate)) * nearness * nearness;
@@ -231,6 +226,21 @@ impl Problem<MAX_COORDINATES> {
             rate += free * (missing / (free.norm_squared() + damping).max(f64::MIN_POSITIVE));
         }
         PseudoInverse { rate, min_singular_value, path_damped: nearness < 1.0, task_damped }
+    }
+}
+
+/// What of `v` is orthogonal to both rows, of which the first one is the larger one.
+fn beside(
+    v: &SVector<f64, MAX_COORDINATES>,
+    [easily, hardly]: &[SVector<f64, MAX_COORDINATES>; 2],
+) -> SVector<f64, MAX_COORDINATES> {
+    let Some(first) = easily.try_normalize(f64::MIN_POSITIVE) else { return *v };
+    let free = v - first * first.dot(v);
+    let hardly = hardly - first * first.dot(hardly);
+    // In a singular configuration, what is left there is rounding.
+    match hardly.try_normalize(ROUNDING * easily.norm()) {
+        Some(second) => free - second * second.dot(&free),
+        None => free,
     }
 }
 

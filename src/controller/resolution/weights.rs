@@ -61,7 +61,7 @@ fn weighted(
 ) -> PseudoInverse<MAX_COORDINATES> {
     let plain = Thresholds::of(reach);
     let unweighted = Gram::new(&problem.path, axes);
-    let share = problem.share_beside_path(&unweighted);
+    let share = problem.share_beside_path(axes);
     for (mut column, scale) in problem.path.column_iter_mut().zip(scale) {
         column *= *scale;
     }
@@ -72,7 +72,7 @@ fn weighted(
     let stretch = ratio(gram.smallest.sqrt(), unweighted.smallest.sqrt());
     let thresholds = Thresholds {
         path: plain.path * stretch,
-        task: plain.task * ratio(problem.share_beside_path(&gram), share),
+        task: plain.task * ratio(problem.share_beside_path(axes), share),
         reach: plain.reach * stretch * stretch,
     };
     let found = problem.resolve_to(axes, without_moment, &thresholds);

@@ -122,6 +122,14 @@ impl Case {
         end_effector(self.structure, &self.parameters)
     }
 
+    /// Largest acceleration of the wanted motion, on a grid \[m/s2\].
+    pub fn path_acceleration(&self) -> f64 {
+        let duration: f64 = self.steps.steps.iter().map(|(_, size)| size).sum();
+        (0..2000)
+            .map(|n| self.parameters.reference.at(duration * f64::from(n) / 2000.0).acceleration.norm())
+            .fold(0.0, f64::max)
+    }
+
     /// Length of the stretched arm \[m\].
     pub fn reach(&self) -> f64 {
         self.parameters.links[..self.structure.links].iter().map(|link| link.length).sum()

@@ -23,11 +23,13 @@ pub struct Course {
     pub kept: bool,
     /// Whether narrow limits or a way to be made good were still in the way shortly before the end.
     pub on_the_way: bool,
+    /// Whether limits or the path kept the second task from what was wanted shortly before the end.
+    pub contradicted: bool,
 }
 
 impl Default for Course {
     fn default() -> Self {
-        Self { last_rate: 0.0, rate: 0.0, roll: 0.0, miss: 0.0, kept: true, on_the_way: false }
+        Self { last_rate: 0.0, rate: 0.0, roll: 0.0, miss: 0.0, kept: true, on_the_way: false, contradicted: false }
     }
 }
 
@@ -40,12 +42,16 @@ impl Course {
         let y = if case.parameters.ik.path_axes == PathAxes::Both { y } else { 0.0 };
         self.rate = self.rate.max(rate);
         self.roll = self.roll.max(seen.pose()[2].abs());
-        self.miss = self.miss.max((x * x + y * y).sqrt());
+        // The first plan is made before any step is known.
+        if now.time > now.size {
+            self.miss = self.miss.max((x * x + y * y).sqrt());
+        }
         self.kept &= seen.keeps_path();
         if now.time > duration - LATE {
             self.last_rate = self.last_rate.max(rate);
             let limited = ["rate_limited", "path_limited", "catching_up"].contains(&seen.status());
             self.on_the_way |= limited && case.limits.are_narrow();
+            self.contradicted |= ["task_damped", "task_limited"].contains(&seen.status());
         }
     }
 }

@@ -65,7 +65,9 @@ impl<'a> Met<'a> {
         let reachable = (self.near[0]..=self.near[1]).contains(&distance) && roll.abs() < UPRIGHT;
         let limited = ["rate_limited", "path_limited"].contains(&now.seen.status());
         if self.case.path.at_rest.is_finite() {
-            return reachable && !(limited && self.case.limits.are_narrow());
+            // A joint at its stop may be in the way for ever.
+            let stopped = now.seen.status() == "path_limited";
+            return reachable && !stopped && !(limited && self.case.limits.are_narrow());
         }
         reachable && !limited && now.seen.singular_value() > self.singular
     }

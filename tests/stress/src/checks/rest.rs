@@ -1,5 +1,6 @@
 //! A reference at rest brings rest: four seconds later joint rates are below 0.2 rad/s, or at most 0.1 rad/s above those
-//! of minimum_norm in the same case, 0.5 rad/s where the UAV rolled by more than 2 degrees on the way.
+//! of minimum_norm in the same case, 0.5 rad/s where the UAV rolled by more than 2 degrees on the way. Nothing is promised
+//! where limits or the path still contradict the second task.
 
 use crate::case::Case;
 use crate::course::Course;
@@ -27,7 +28,7 @@ pub fn promises_rest(case: &Case) -> bool {
 
 /// Whether a run ends at rest; `minimum_norm` gives the same case with that resolution.
 pub fn rest(run: &Course, minimum_norm: impl FnOnce() -> Result<Course, String>) -> Result<(), String> {
-    if run.last_rate <= REST || run.on_the_way {
+    if run.last_rate <= REST || run.on_the_way || run.contradicted {
         return Ok(());
     }
     let other = minimum_norm()?;
