@@ -8,7 +8,7 @@ use common::cases;
 use common::random::Random;
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
-use uam::qp::{FREE, MAX_ROWS, MAX_VARIABLES, Outcome, Place, Places, Problem, Solution, Vector, solve};
+use uam::qp::{FREE, MAX_ROWS, MAX_VARIABLES, Outcome, Place, Places, Problem, Rows, Solution, TooMany, Vector, solve};
 
 #[path = "qp/oracle.rs"]
 mod oracle;
@@ -35,7 +35,7 @@ fn case(
     }
     for (rows, (matrix, right)) in [(&mut problem.equalities, &equalities), (&mut problem.objective, &objective)] {
         for (row, value) in matrix.row_iter().zip(right.iter()) {
-            rows.push(&row.iter().copied().collect::<Vec<_>>(), *value);
+            rows.push(&row.iter().copied().collect::<Vec<_>>(), *value).unwrap();
         }
     }
     Case { problem, equalities, objective }
@@ -189,8 +189,8 @@ proptest! {
         let mut row: Vector = std::array::from_fn(|_| random.about_zero(1.0));
         row[random.between(0.0, 7.999) as usize] = HOSTILE[random.between(0.0, 7.999) as usize];
         let rows = if random.coin() { &mut problem.objective } else { &mut problem.equalities };
-        *rows = uam::qp::Rows::default();
-        rows.push(&row, if random.coin() { 1.0 } else { HOSTILE[random.between(0.0, 7.999) as usize] });
+        *rows = Rows::default();
+        rows.push(&row, if random.coin() { 1.0 } else { HOSTILE[random.between(0.0, 7.999) as usize] }).unwrap();
         let found = solve(&problem, &any_guess(&mut random));
         for i in 0..problem.variables {
             let x = found.x[i];
@@ -271,15 +271,15 @@ fn what_does_not_matter_is_smallest() {
     // One equation, four variables, nothing else: the pseudo-inverse.
     let row = [1.0, -2.0, 0.5, 3.0];
     let mut problem = Problem::new(4, 1e-12);
-    problem.equalities.push(&row, 2.0);
+    problem.equalities.push(&row, 2.0).unwrap();
     let found = solve(&problem, &FREE);
     let size: f64 = row.iter().map(|a| a * a).sum();
     for (x, a) in found.x.iter().zip(row) {
         assert!((x - 2.0 * a / size).abs() < 1e-15);
     }
     // Likewise as objective, where the ridge takes its share of 1e-12.
-    problem.equalities = uam::qp::Rows::default();
-    problem.objective.push(&row, 2.0);
+    problem.equalities = Rows::default();
+    problem.objective.push(&row, 2.0).unwrap();
     let found = solve(&problem, &FREE);
     for (x, a) in found.x.iter().zip(row) {
         assert!((x - 2.0 * a / size).abs() < 1e-12);
@@ -291,7 +291,7 @@ fn a_penalty_keeps_small_variables_at_zero() {
     // (x - 1)^2 + 3 |x| is smallest at 0, (x - 4)^2 + 3 |x| at 2.5.
     for (aim, expected) in [(1.0, 0.0), (4.0, 2.5), (-4.0, -2.5)] {
         let mut problem = Problem::new(2, 1e-15);
-        problem.objective.push(&[1.0, 0.0], aim);
+        problem.objective.push(&[1.0, 0.0], aim).unwrap();
         problem.penalty[0] = 3.0;
         let found = solve(&problem, &FREE);
         assert!((found.x[0] - expected).abs() < 1e-12 && found.x[1] == 0.0, "{:?}", found.x);
@@ -300,12 +300,16 @@ fn a_penalty_keeps_small_variables_at_zero() {
 }
 
 #[test]
-fn more_than_there_is_room_for_is_ignored() {
-    let mut problem = Problem::new(MAX_VARIABLES + 1, 1.0);
-    for _ in 0..=MAX_ROWS {
-        problem.objective.push(&[1.0; MAX_VARIABLES + 1], 1.0);
+fn more_than_there_is_room_for_is_refused() {
+    let mut rows = Rows::default();
+    assert_eq!(rows.push(&[1.0; MAX_VARIABLES + 1], 1.0), Err(TooMany::Coefficients(MAX_VARIABLES + 1)));
+    for _ in 0..MAX_ROWS {
+        rows.push(&[1.0; MAX_VARIABLES], 1.0).unwrap();
     }
-    assert_eq!(problem.variables, MAX_VARIABLES);
+    assert_eq!(rows.push(&[1.0], 1.0), Err(TooMany::Rows));
+    // Nothing of what was refused has been taken.
+    let mut problem = Problem::new(1, 1e-9);
+    problem.equalities = rows;
     assert_eq!(solve(&problem, &FREE).outcome, Outcome::Solved);
 }
 
@@ -325,7 +329,7 @@ fn scales_do_not_matter() {
             for (scaled, (matrix, value), power) in all {
                 for (row, value) in matrix.row_iter().zip(value.iter()) {
                     let row: Vec<f64> = row.iter().map(|a| a * scale(power)).collect();
-                    scaled.push(&row, value * scale(power + variables));
+                    scaled.push(&row, value * scale(power + variables)).unwrap();
                 }
             }
             for i in 0..case.n() {
@@ -347,7 +351,7 @@ fn the_equalities_hold_where_penalties_drive_far_away() {
     // Without the penalties' kinks, the free variables would run away to 1e10.
     let mut problem = Problem::new(4, 1e-10);
     let row = [-0.75, 1.6, -1.1, 0.16];
-    problem.equalities.push(&row, 0.7);
+    problem.equalities.push(&row, 0.7).unwrap();
     problem.penalty[..3].copy_from_slice(&[1.8, 1.1, 0.5]);
     (problem.lower[0], problem.upper[0]) = (1.0, 1.2);
     for guess in [FREE, [Place::Below; MAX_VARIABLES], [Place::Lower; MAX_VARIABLES]] {
