@@ -132,6 +132,23 @@ impl NullSpace {
         }
     }
 
+    /// Of `errors` of the equalities, keeps the part that the free variables cannot reduce.
+    pub fn keep_irreducible(&self, errors: &mut [f64; MAX_ROWS]) {
+        let dot = |a: &[f64; MAX_ROWS], b: &[f64; MAX_ROWS]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let mut reducible = [[0.0; MAX_ROWS]; MAX_ROWS];
+        for k in 0..self.rank {
+            let mut column = self.factor.map(|row| row[k]);
+            for before in &reducible[..k] {
+                let share = dot(before, &column);
+                column.iter_mut().zip(before).for_each(|(column, before)| *column -= share * before);
+            }
+            let length = dot(&column, &column).sqrt();
+            reducible[k] = column.map(|column| column / length);
+            let share = dot(&reducible[k], errors);
+            errors.iter_mut().zip(&reducible[k]).for_each(|(error, part)| *error -= share * part);
+        }
+    }
+
     /// What the row with these turned `coefficients` has at `y` because of the equalities.
     #[inline]
     pub fn seen(&self, coefficients: &Vector, y: &Vector) -> f64 {

@@ -26,8 +26,8 @@ const AT_REST: f64 = 2e-11;
 /// A bound holds a variable back if the equalities pull at it with more than this share of their error.
 const PULL: f64 = 2e-13;
 
-/// Sums are off by this share of their terms.
-const NOISE: f64 = 5e-16;
+/// So often an error that rounding has left of a long way is reduced.
+const REPEATS: usize = 3;
 
 /// So many steps without length are degenerate; with more, rounding goes round.
 const PATIENCE: usize = 25;
@@ -44,6 +44,7 @@ pub(super) struct Search<'a> {
     settled: usize,
     looked_at: usize,
     missed: bool,
+    repeats: usize,
     /// Where they are, always within the bounds.
     pub x: Vector,
     /// Which are in motion; the others rest at an end or at a kink.
@@ -81,6 +82,7 @@ impl<'a> Search<'a> {
             levels,
             settled: 0,
             missed: false,
+            repeats: 0,
             looked_at: levels.ends[0].min(equalities.count),
             x: [0.0; MAX_VARIABLES],
             free: [false; MAX_VARIABLES],
@@ -138,7 +140,7 @@ impl<'a> Search<'a> {
                 stalls = 0;
             }
             let tired = stalls > PATIENCE;
-            let next = match self.nearer(&before, tired) {
+            let next = match self.nearer(tired) {
                 Level::Released(i, side) => Some((i, side)),
                 Level::Next => continue,
                 Level::Last if tired => None,
@@ -272,7 +274,7 @@ impl<'a> Search<'a> {
     /// Unless the equalities are satisfied: the variable at rest that brings them nearer most steeply, and a number on
     /// the side where it moves. If there is none, their error is the least one; it is kept, and the bounds against
     /// which they press hold.
-    fn nearer(&mut self, before: &Vector, tired: bool) -> Level {
+    fn nearer(&mut self, tired: bool) -> Level {
         if self.settled == self.equalities.count {
             return Level::Last;
         }
@@ -283,7 +285,12 @@ impl<'a> Search<'a> {
             })
         };
         if off(ROUNDING) {
-            let (pull, weak) = self.pull();
+            let (pull, weak, reducible) = self.pull();
+            if reducible && !tired && self.repeats < REPEATS {
+                self.repeats += 1;
+                return Level::Next;
+            }
+            self.repeats = 0;
             let mut best: Option<(f64, usize)> = None;
             for i in (0..self.problem.variables).filter(|i| self.movable[*i] && !self.free[*i]) {
                 let room =
@@ -292,19 +299,14 @@ impl<'a> Search<'a> {
                     best = Some((pull[i].abs(), i));
                 }
             }
-            // Rounding is left of a long way.
-            if !tired
-                && !self.rests_at(before)
-                && (0..self.problem.variables).any(|i| self.free[i] && pull[i].abs() > weak)
-            {
-                return Level::Next;
-            }
             if let (Some((_, i)), false) = (best, tired) {
                 return Level::Released(i, if self.x[i] == 0.0 { pull[i] } else { self.x[i] });
             }
-            self.missed |= off(MET);
-            for (i, movable) in self.movable.iter_mut().enumerate() {
-                *movable &= self.free[i] || pull[i].abs() <= weak;
+            if off(MET) {
+                self.missed = true;
+                for (i, movable) in self.movable.iter_mut().enumerate() {
+                    *movable &= self.free[i] || pull[i].abs() <= weak;
+                }
             }
             let missing = self.missing();
             self.wanted.iter_mut().zip(missing).take(self.looked_at).for_each(|(wanted, missing)| *wanted -= missing);
@@ -317,26 +319,32 @@ impl<'a> Search<'a> {
         Level::Next
     }
 
-    /// How strongly the error of the equalities looked at pulls at each variable while those that are settled stay, and
-    /// what is too weak to count.
-    fn pull(&self) -> (Vector, f64) {
-        let (mut pull, mut weak) = ([0.0; MAX_VARIABLES], 0.0);
-        let far = largest(&self.x);
+    /// How strongly the error of the equalities looked at pulls at each variable while those that are settled stay;
+    /// what is too weak to count; and whether the variables in motion could reduce most of the error themselves.
+    fn pull(&self) -> (Vector, f64, bool) {
+        let mut errors = [0.0; MAX_ROWS];
         for k in self.settled..self.looked_at {
-            let row = &self.equalities.coefficients[k];
-            let (error, size) = (self.wanted[k] - product(row, &self.x), largest(row));
-            weak += size * (PULL * self.levels.blur[k] * error.abs() + NOISE * size * far);
-            pull.iter_mut().zip(row).for_each(|(pull, coefficient)| *pull += coefficient * error);
+            errors[k] = self.wanted[k] - product(&self.equalities.coefficients[k], &self.x);
         }
+        let weighted = |errors: &[f64; MAX_ROWS]| {
+            let mut sum = [0.0; MAX_VARIABLES];
+            for (error, (row, _)) in errors.iter().zip(self.equalities.iter()) {
+                sum.iter_mut().zip(row).for_each(|(sum, coefficient)| *sum += coefficient * error);
+            }
+            sum
+        };
         if self.settled > 0 {
             let mut space = NullSpace::EMPTY;
             space.span(self.equalities, self.levels, self.settled, &self.free);
-            let multipliers = space.multipliers(&space.basis.forth(&pull));
-            for (multiplier, (row, _)) in multipliers.iter().zip(self.equalities.iter()) {
-                pull.iter_mut().zip(row).for_each(|(pull, coefficient)| *pull -= coefficient * multiplier);
-            }
+            let multipliers = space.multipliers(&space.basis.forth(&weighted(&errors)));
+            errors[..self.settled].iter_mut().zip(multipliers).for_each(|(error, multiplier)| *error = -multiplier);
         }
-        (pull, weak)
+        let all = errors;
+        self.space.keep_irreducible(&mut errors);
+        let terms = errors.iter().zip(&self.levels.blur).zip(self.equalities.iter());
+        let weak = terms.map(|((error, blur), (row, _))| PULL * blur * (error * largest(row)).abs()).sum();
+        let square = |errors: &[f64; MAX_ROWS]| errors.iter().map(|error| error * error).sum::<f64>();
+        (weighted(&errors), weak, square(&errors) < 0.25 * square(&all))
     }
 
     /// The variable at rest that is to move, and the side on which: the steepest one, or that of the least
