@@ -27,7 +27,10 @@ const AT_REST: f64 = 2e-11;
 const PULL: f64 = 2e-13;
 
 /// So often an error that rounding has left of a long way is reduced.
-const REPEATS: usize = 3;
+const REPEATS: usize = 5;
+
+/// Steps of less than this share of the variables have no length.
+const STILL: f64 = 1e-10;
 
 /// So many steps without length are degenerate; with more, rounding goes round.
 const PATIENCE: usize = 25;
@@ -151,9 +154,10 @@ impl<'a> Search<'a> {
                 if self.problem.equalities.satisfied_by(&self.x) {
                     return Outcome::Solved;
                 }
-                if self.missed || self.rests_at(&before) {
+                if self.missed || self.repeats == REPEATS {
                     return Outcome::Missed;
                 }
+                self.repeats += 1;
                 continue;
             };
             self.free[i] = true;
@@ -165,7 +169,7 @@ impl<'a> Search<'a> {
     /// Whether it has moved from `before` by no more than rounding.
     fn rests_at(&self, before: &Vector) -> bool {
         let size = largest(&self.x);
-        self.x.iter().zip(before).all(|(x, before)| (x - before).abs() <= ROUNDING * size + f64::MIN_POSITIVE)
+        self.x.iter().zip(before).all(|(x, before)| (x - before).abs() <= STILL * size)
     }
 
     /// Goes this `share` of the `step`.
