@@ -23,7 +23,7 @@ mod rows;
 mod search;
 mod triangle;
 
-use rows::Levels;
+use rows::{LITTLE, Levels, NOTHING};
 pub use rows::{Rows, TooMany};
 use search::Search;
 
@@ -129,12 +129,27 @@ pub struct Solution {
 #[must_use]
 pub fn solve(problem: &Problem, guess: &Places) -> Solution {
     let equalities = &problem.equalities;
-    let (turned, levels);
     let mut search = Search::new(problem, equalities, &Levels::ONE, guess);
-    if !search.sees_all() && equalities.nearly_depend() {
-        (turned, levels) = Levels::orthogonal(equalities);
-        search = Search::new(problem, &turned, &levels, guess);
+    let mut outcome = Outcome::Unfinished;
+    if search.sees_all() || !equalities.nearly_depend() {
+        outcome = search.descend();
     }
+    let mut solution = Solution { x: search.x, places: search.places(), outcome };
+    for nothing in [NOTHING, LITTLE] {
+        if solution.outcome == Outcome::Unfinished {
+            solution = solve_in_levels(problem, guess, nothing);
+        }
+    }
+    solution
+}
+
+/// [`solve`] for equalities that nearly depend on each other; those of which less than the share `nothing` is left
+/// beside the others are left out.
+#[cold]
+#[inline(never)]
+fn solve_in_levels(problem: &Problem, guess: &Places, nothing: f64) -> Solution {
+    let (turned, levels) = Levels::orthogonal(&problem.equalities, nothing);
+    let mut search = Search::new(problem, &turned, &levels, guess);
     let outcome = search.descend();
     Solution { x: search.x, places: search.places(), outcome }
 }

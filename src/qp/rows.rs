@@ -5,14 +5,17 @@ use thiserror::Error;
 use super::{MAX_ROWS, MAX_VARIABLES, Vector, product};
 
 /// Equations are satisfied if they are off by less than this share of what their terms could be.
-pub(super) const MET: f64 = 1e-10;
+pub(super) const MET: f64 = 3e-10;
 
 /// Rows of which less than this share is left beside the others come after them: their error, squared, is nothing
 /// beside that of the others.
 pub(super) const WEAK: f64 = 1e-3;
 
 /// Rows of which less than this share is left beside the others depend on them.
-const NOTHING: f64 = 1e-11;
+pub(super) const NOTHING: f64 = 1e-11;
+
+/// The same where so little decides that steps run out.
+pub(super) const LITTLE: f64 = 1e-7;
 
 /// Weight of a level beside that before it.
 const NEXT: f64 = 1e-20;
@@ -124,11 +127,11 @@ impl Levels {
     pub const ONE: Self = Self { ends: [MAX_ROWS; MAX_ROWS], weights: [1.0; MAX_ROWS], blur: [1.0; MAX_ROWS] };
 
     /// The same equations, turned among each other until their rows are orthogonal: |E x - e| stays what it is. The
-    /// long rows come first, each level is scaled to length 1, and what is next to nothing is left out. The method is
+    /// long rows come first, each level is scaled to length 1, and rows of which this share is left are left out. The method is
     /// that of one-sided Jacobi rotations (M. R. Hestenes, J. SIAM 6 (1958) 51-90).
     #[cold]
     #[inline(never)]
-    pub fn orthogonal(rows: &Rows) -> (Rows, Self) {
+    pub fn orthogonal(rows: &Rows, nothing: f64) -> (Rows, Self) {
         let mut rows = *rows;
         let mut origins = rows.coefficients.map(|row| product(&row, &row));
         for _ in 0..ROUNDS {
@@ -146,7 +149,7 @@ impl Levels {
             let length = squares[longest].sqrt();
             let row = std::mem::take(&mut rows.coefficients[longest]);
             let blur = origins[longest].sqrt() / length;
-            if !(blur < 1.0 / NOTHING) {
+            if !(blur * nothing < 1.0) {
                 continue;
             }
             if k == 0 || length <= WEAK * unit {
@@ -156,7 +159,7 @@ impl Levels {
             let Rows { count, coefficients, values } = &mut turned;
             coefficients[*count] = row.map(|coefficient| coefficient / unit);
             values[*count] = rows.values[longest] / unit;
-            levels.blur[*count] = blur.max(1.0);
+            levels.blur[*count] = blur.max(nothing / NOTHING);
             levels.weights[*count] = weight;
             *count += 1;
             levels.ends[begin..*count].fill(*count);

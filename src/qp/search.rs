@@ -27,7 +27,7 @@ const AT_REST: f64 = 2e-11;
 const PULL: f64 = 2e-13;
 
 /// So often an error that rounding has left of a long way is reduced.
-const REPEATS: usize = 5;
+const REPEATS: usize = 25;
 
 /// Steps of less than this share of the variables have no length.
 const STILL: f64 = 1e-10;
