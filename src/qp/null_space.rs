@@ -6,7 +6,7 @@ use super::triangle::Triangle;
 use super::{MAX_ROWS, MAX_VARIABLES, Vector, largest, product};
 
 /// A row of which less than this share of the largest coefficient is left depends on the rows before it.
-pub(super) const DEPENDENT: f64 = 1e-13;
+pub(super) const DEPENDENT: f64 = 1e-14;
 
 /// The rows of the equalities on the free variables, transposed and decomposed: Q R with Householder
 /// reflections, the largest remaining row first. Columns of Q that are no pivots span the null space.

@@ -9,7 +9,7 @@ pub(super) const MET: f64 = 3e-10;
 
 /// Rows of which less than this share is left beside the others come after them: their error, squared, is nothing
 /// beside that of the others.
-pub(super) const WEAK: f64 = 1e-3;
+pub(super) const WEAK: f64 = 1e-7;
 
 /// Rows of which less than this share is left beside the others depend on them.
 pub(super) const NOTHING: f64 = 1e-11;

@@ -24,7 +24,7 @@ const BLUR: f64 = 2e-15;
 const AT_REST: f64 = 2e-11;
 
 /// A bound holds a variable back if the equalities pull at it with more than this share of their error.
-const PULL: f64 = 2e-13;
+const PULL: f64 = 2e-14;
 
 /// So often an error that rounding has left of a long way is reduced.
 const REPEATS: usize = 25;
