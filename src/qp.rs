@@ -11,14 +11,20 @@
 //!
 //! The method is a primal active set with the equalities eliminated by an orthogonal basis of their null space
 //! (J. Nocedal and S. J. Wright, Numerical Optimization, chapter 16). It starts where the variables are guessed to
-//! be; those that this takes beyond their bounds are held there, and it is tried again. Only if that comes to
-//! nothing, the equalities alone are solved first. The kink of a penalty at 0 is one more
-//! place where a variable can rest. The objective falls with each step that has a length; while steps have
-//! none, the least index enters and leaves, with which no working set comes twice (Y.-Y. Chang and
-//! R. W. Cottle, Mathematical Programming 18 (1980) 127-137). No memory is allocated.
+//! be, and each step goes to the least error of the equalities and, among those points, to the least objective, up to
+//! the first bound; the kink of a penalty at 0 is one more place where a variable can rest. Where the equalities
+//! cannot be satisfied, the bounds against which they press hold from then on. Error and objective fall with each step
+//! that has a length; while steps have none, the least index enters and leaves, with which no working set comes twice
+//! (Y.-Y. Chang and R. W. Cottle, Mathematical Programming 18 (1980) 127-137), and after many of them, what they are
+//! about is rounding.
+//!
+//! Equalities that nearly depend on each other (1e-7 of the longest row is left) are turned until their rows are
+//! orthogonal, and the weak rows come after the strong ones; what is left of 1e-11 and less is left out. An equality is
+//! satisfied if it is off by less than 3e-10 of the sum of its terms' sizes. No memory is allocated.
 
 mod householder;
 mod null_space;
+mod release;
 mod rows;
 mod search;
 mod triangle;

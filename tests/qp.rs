@@ -11,6 +11,7 @@ use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 use uam::qp::{FREE, MAX_ROWS, MAX_VARIABLES, Outcome, Place, Problem, Rows, TooMany, Vector, solve};
 
+#[allow(dead_code)] // others take the rest
 #[path = "qp/case.rs"]
 mod case;
 

@@ -88,13 +88,13 @@ fn penalties_of_any_size_leave_the_equalities_alone() {
 }
 
 /// Where an arm is folded to sixteen digits, so little decides between answers that costs are not compared; with
-/// seven they are compared to two.
+/// five they are compared to two.
 #[test]
 fn a_path_is_followed_by_a_folded_arm() {
     for_each_seed(10_000, 250_000, |random| {
         let (case, known) = folded_arm(random);
         let (values, share) = (case.equalities.0.clone().singular_values(), 0.02);
-        if values[1] > 1e-7 * values[0] {
+        if values[1] > 1e-5 * values[0] {
             as_good_as(&case, &known, share, random);
         } else {
             assert_eq!(honest(&case, &FREE).1, Outcome::Solved);
@@ -112,7 +112,7 @@ fn equalities_that_nearly_depend_on_each_other_come_to_an_end() {
         let Some(least) = oracle::least_equality_error(&case) else { return };
         let error = case.equality_error(&x);
         assert!(
-            error <= least * (1.0 + 1e-4) + 1e-6,
+            error <= least * (1.0 + 1e-4) + 1e-5,
             "off by {error}, could be {least}, {:?} {} {}",
             case.problem,
             case.equalities.0,
@@ -132,6 +132,9 @@ fn no_answer_of_an_interior_point_method_is_better() {
             assert!(outcome == Outcome::Solved || least > 1e-12, "missed by {error}, could be {least}");
         }
         let Some(best) = oracle::least_cost(&case, &x) else { return };
+        if !case.admits(&best, 1e-8) || case.equality_error(&best) > error + 1e-8 {
+            return; // cheaper because it is not allowed
+        }
         let scale = 1.0 + case.cost(&x).abs();
         assert!(case.cost(&x) <= case.cost(&best) + 1e-6 * scale, "{} > {}", case.cost(&x), case.cost(&best));
     });

@@ -119,8 +119,8 @@ impl NullSpace {
         if self.rank < self.count {
             let mut triangle = Triangle::default();
             (0..self.rank).for_each(|_| triangle.grow(0.0, 0.0));
-            for row in 0..self.count {
-                triangle.add(self.factor[row], values[row], self.weights[row]);
+            for ((row, value), weight) in self.factor.iter().zip(values).zip(self.weights).take(self.count) {
+                triangle.add(*row, *value, weight);
             }
             self.pivots().iter().zip(triangle.minimum()).for_each(|(pivot, z)| y[*pivot] = z);
             return;

@@ -99,7 +99,7 @@ impl Rows {
             if k == 0 {
                 bar = WEAK * WEAK * square;
             }
-            if !(square > bar) {
+            if square.is_nan() || square <= bar {
                 return true;
             }
             for i in k + 1..self.count {
@@ -149,7 +149,7 @@ impl Levels {
             let length = squares[longest].sqrt();
             let row = std::mem::take(&mut rows.coefficients[longest]);
             let blur = origins[longest].sqrt() / length;
-            if !(blur * nothing < 1.0) {
+            if blur.is_nan() || blur * nothing >= 1.0 {
                 continue;
             }
             if k == 0 || length <= WEAK * unit {

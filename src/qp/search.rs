@@ -1,7 +1,8 @@
 //! From one working set to the next, downhill.
 
 use super::null_space::NullSpace;
-use super::rows::{Levels, MET, Rows, WEAK, satisfied};
+use super::release::Level;
+use super::rows::{Levels, Rows, WEAK, satisfied};
 use super::triangle::Triangle;
 use super::{MAX_ROWS, MAX_VARIABLES, Outcome, Place, Places, Problem, Vector, largest, product};
 
@@ -14,20 +15,11 @@ const ROUNDING: f64 = 1e-14;
 /// Equalities that are settled are allowed this share of what their terms could be.
 const KEPT: f64 = 1e-12;
 
-/// Slopes below this share of their terms are none.
-const FLAT: f64 = 1e-12;
-
-/// The equalities' multipliers, and slopes with them, are off by this share of the slopes without.
-const BLUR: f64 = 2e-15;
-
 /// Variables that move by less than this share of the largest motion are at rest.
 const AT_REST: f64 = 2e-11;
 
-/// A bound holds a variable back if the equalities pull at it with more than this share of their error.
-const PULL: f64 = 2e-14;
-
 /// So often an error that rounding has left of a long way is reduced.
-const REPEATS: usize = 25;
+pub(super) const REPEATS: usize = 25;
 
 /// Steps of less than this share of the variables have no length.
 const STILL: f64 = 1e-10;
@@ -40,38 +32,28 @@ const FAR: f64 = 1e100;
 
 /// The variables on their way.
 pub(super) struct Search<'a> {
-    problem: &'a Problem,
-    equalities: &'a Rows,
-    levels: &'a Levels,
+    pub(super) problem: &'a Problem,
+    pub(super) equalities: &'a Rows,
+    pub(super) levels: &'a Levels,
     /// So many equalities are at their least error, and so many are looked at.
-    settled: usize,
-    looked_at: usize,
-    missed: bool,
-    repeats: usize,
+    pub(super) settled: usize,
+    pub(super) looked_at: usize,
+    pub(super) missed: bool,
+    pub(super) repeats: usize,
     /// Where they are, always within the bounds.
     pub x: Vector,
     /// Which are in motion; the others rest at an end or at a kink.
-    free: [bool; MAX_VARIABLES],
+    pub(super) free: [bool; MAX_VARIABLES],
     /// Which may ever move.
-    movable: [bool; MAX_VARIABLES],
+    pub(super) movable: [bool; MAX_VARIABLES],
     /// Whether some of them are penalised.
-    penalised: bool,
+    pub(super) penalised: bool,
     /// Sign of each penalised variable in motion: its penalty is linear up to 0.
-    side: Vector,
+    pub(super) side: Vector,
     /// What the left-hand sides of the equalities are to be.
-    wanted: [f64; MAX_ROWS],
+    pub(super) wanted: [f64; MAX_ROWS],
     /// The directions in which the free variables may move.
-    space: NullSpace,
-}
-
-/// What the equalities say at the minimum over the free variables.
-enum Level {
-    /// This variable is to move, on the side of this number.
-    Released(usize, f64),
-    /// Other equalities are looked at.
-    Next,
-    /// All are at their least error.
-    Last,
+    pub(super) space: NullSpace,
 }
 
 impl<'a> Search<'a> {
@@ -177,8 +159,8 @@ impl<'a> Search<'a> {
     fn advance(&mut self, step: &Vector, share: f64, fastest: f64) {
         // What is left of numbers that cancel is nothing.
         let nothing = ROUNDING * share * fastest;
-        for i in 0..self.problem.variables {
-            let to = self.x[i] + share * step[i];
+        for (i, step) in step.iter().enumerate().take(self.problem.variables) {
+            let to = self.x[i] + share * step;
             let to = if to.abs() <= nothing { 0.0 } else { to };
             self.x[i] = self.problem.bounded(i, to);
         }
@@ -235,7 +217,7 @@ impl<'a> Search<'a> {
     }
 
     /// What the equalities' left-hand sides lack.
-    fn missing(&self) -> [f64; MAX_ROWS] {
+    pub(super) fn missing(&self) -> [f64; MAX_ROWS] {
         let mut missing = [0.0; MAX_ROWS];
         for (k, (row, _)) in self.equalities.iter().enumerate() {
             if k >= self.settled || !satisfied(row, self.wanted[k], &self.x, KEPT * self.levels.blur[k]) {
@@ -246,7 +228,7 @@ impl<'a> Search<'a> {
     }
 
     /// Half the slopes of the penalties of variables in motion.
-    fn slopes(&self) -> Vector {
+    pub(super) fn slopes(&self) -> Vector {
         let free = &self.space.basis.free;
         std::array::from_fn(|i| 0.5 * self.problem.penalty[i] * self.side[i] * free[i])
     }
@@ -273,138 +255,6 @@ impl<'a> Search<'a> {
             }
         }
         first
-    }
-
-    /// Unless the equalities are satisfied: the variable at rest that brings them nearer most steeply, and a number on
-    /// the side where it moves. If there is none, their error is the least one; it is kept, and the bounds against
-    /// which they press hold.
-    fn nearer(&mut self, tired: bool) -> Level {
-        if self.settled == self.equalities.count {
-            return Level::Last;
-        }
-        let off = |share: f64| {
-            (self.settled..self.looked_at).any(|k| {
-                let share = share * self.levels.blur[k];
-                !satisfied(&self.equalities.coefficients[k], self.wanted[k], &self.x, share)
-            })
-        };
-        if off(ROUNDING) {
-            let (pull, weak, reducible) = self.pull();
-            if reducible && !tired && self.repeats < REPEATS {
-                self.repeats += 1;
-                return Level::Next;
-            }
-            self.repeats = 0;
-            let mut best: Option<(f64, usize)> = None;
-            for i in (0..self.problem.variables).filter(|i| self.movable[*i] && !self.free[*i]) {
-                let room =
-                    if pull[i] > 0.0 { self.x[i] < self.problem.upper[i] } else { self.x[i] > self.problem.lower[i] };
-                if room && pull[i].abs() > best.map_or(weak, |(most, _)| most) {
-                    best = Some((pull[i].abs(), i));
-                }
-            }
-            if let (Some((_, i)), false) = (best, tired) {
-                return Level::Released(i, if self.x[i] == 0.0 { pull[i] } else { self.x[i] });
-            }
-            if off(MET) {
-                self.missed = true;
-                for (i, movable) in self.movable.iter_mut().enumerate() {
-                    *movable &= self.free[i] || pull[i].abs() <= weak;
-                }
-            }
-            let missing = self.missing();
-            self.wanted.iter_mut().zip(missing).take(self.looked_at).for_each(|(wanted, missing)| *wanted -= missing);
-        }
-        self.settled = self.looked_at;
-        if self.settled == self.equalities.count {
-            return Level::Last;
-        }
-        self.looked_at = self.levels.ends[self.settled].min(self.equalities.count);
-        Level::Next
-    }
-
-    /// How strongly the error of the equalities looked at pulls at each variable while those that are settled stay;
-    /// what is too weak to count; and whether the variables in motion could reduce most of the error themselves.
-    fn pull(&self) -> (Vector, f64, bool) {
-        let mut errors = [0.0; MAX_ROWS];
-        for k in self.settled..self.looked_at {
-            errors[k] = self.wanted[k] - product(&self.equalities.coefficients[k], &self.x);
-        }
-        let weighted = |errors: &[f64; MAX_ROWS]| {
-            let mut sum = [0.0; MAX_VARIABLES];
-            for (error, (row, _)) in errors.iter().zip(self.equalities.iter()) {
-                sum.iter_mut().zip(row).for_each(|(sum, coefficient)| *sum += coefficient * error);
-            }
-            sum
-        };
-        if self.settled > 0 {
-            let mut space = NullSpace::EMPTY;
-            space.span(self.equalities, self.levels, self.settled, &self.free);
-            let multipliers = space.multipliers(&space.basis.forth(&weighted(&errors)));
-            errors[..self.settled].iter_mut().zip(multipliers).for_each(|(error, multiplier)| *error = -multiplier);
-        }
-        let all = errors;
-        self.space.keep_irreducible(&mut errors);
-        let terms = errors.iter().zip(&self.levels.blur).zip(self.equalities.iter());
-        let weak = terms.map(|((error, blur), (row, _))| PULL * blur * (error * largest(row)).abs()).sum();
-        let square = |errors: &[f64; MAX_ROWS]| errors.iter().map(|error| error * error).sum::<f64>();
-        (weighted(&errors), weak, square(&errors) < 0.25 * square(&all))
-    }
-
-    /// The variable at rest that is to move, and the side on which: the steepest one, or that of the least
-    /// index.
-    fn entering(&self, least_index: bool) -> Option<(usize, f64)> {
-        if self.free == self.movable {
-            return None;
-        }
-        let Problem { variables, objective, ridge, penalty, lower, upper, .. } = self.problem;
-        // Half the gradient without penalties.
-        let mut gradient = self.x.map(|x| ridge * x);
-        for (row, value) in objective.iter() {
-            let error = product(row, &self.x) - value;
-            gradient.iter_mut().zip(row).for_each(|(gradient, coefficient)| *gradient += coefficient * error);
-        }
-        let mut total = gradient;
-        if self.penalised {
-            total.iter_mut().zip(self.slopes()).for_each(|(total, slope)| *total += slope);
-        }
-        let multipliers = self.space.multipliers(&self.space.basis.forth(&total));
-        for (multiplier, (row, _)) in multipliers.iter().zip(self.equalities.iter()) {
-            gradient.iter_mut().zip(row).for_each(|(gradient, coefficient)| *gradient -= coefficient * multiplier);
-        }
-
-        let mut best: Option<(f64, usize, f64)> = None;
-        for i in (0..*variables).filter(|i| self.movable[*i] && !self.free[*i]) {
-            let (x, weight) = (self.x[i], 0.5 * penalty[i]);
-            let (upwards, downwards) = (if x < 0.0 { -weight } else { weight }, if x > 0.0 { weight } else { -weight });
-            let (mut gain, mut side) = (0.0, 1.0);
-            if x < upper[i] && -(gradient[i] + upwards) > gain {
-                (gain, side) = (-(gradient[i] + upwards), if x < 0.0 { -1.0 } else { 1.0 });
-            }
-            if x > lower[i] && gradient[i] + downwards > gain {
-                (gain, side) = (gradient[i] + downwards, if x > 0.0 { 1.0 } else { -1.0 });
-            }
-            if gain > 0.0
-                && gain > FLAT * (self.terms(i, &multipliers) + weight) + BLUR * largest(&total)
-                && best.is_none_or(|(most, ..)| gain > most)
-            {
-                best = Some((gain, i, side));
-                if least_index {
-                    break;
-                }
-            }
-        }
-        best.map(|(_, i, side)| (i, side))
-    }
-
-    /// Size of the terms in the gradient of variable `i`, for these `multipliers` of the equalities.
-    fn terms(&self, i: usize, multipliers: &[f64; MAX_ROWS]) -> f64 {
-        let x = self.x.map(f64::abs);
-        let objective = self.problem.objective.iter();
-        let objective = objective.map(|(row, value)| row[i].abs() * (product(&row.map(f64::abs), &x) + value.abs()));
-        let equalities =
-            self.equalities.iter().zip(multipliers).map(|((row, _), multiplier)| (row[i] * multiplier).abs());
-        self.problem.ridge * x[i] + objective.sum::<f64>() + equalities.sum::<f64>()
     }
 
     /// Where the variables are.

@@ -51,6 +51,12 @@ impl Case {
         (&self.objective.0 * x - &self.objective.1).norm_squared() + self.problem.ridge * x.norm_squared() + penalty
     }
 
+    /// Whether `x` is within the bounds but for this much.
+    pub fn admits(&self, x: &DVector<f64>, tolerance: f64) -> bool {
+        let Problem { lower, upper, .. } = &self.problem;
+        x.iter().enumerate().all(|(i, x)| (lower[i] - tolerance..=upper[i] + tolerance).contains(x))
+    }
+
     pub fn assert_within(&self, x: &DVector<f64>) {
         for (i, x) in x.iter().enumerate() {
             assert!(
