@@ -5,6 +5,8 @@
 //!
 //! (mean moment on the UAV)^2 + `rate_penalty` * sum of |joint rates|   (3.27) and (4.3)
 //!
+//! with a square of the rates beside their price that keeps them steady ([`STEADINESS`]).
+//!
 //! What the extended Jacobian would do without limits is asked for; so the two agree where no limit
 //! binds, and both keep calm near singular configurations.
 
@@ -17,8 +19,8 @@ use crate::planar::Vec2;
 use crate::qp::{self, MAX_VARIABLES, Outcome, Place, Rows};
 use crate::vehicle::Vehicle;
 
-/// The ridge of the quadratic program, as a share of the squared moment per rate: it decides between rates
-/// that are equally good otherwise.
+/// The ridge of the quadratic program without a price, as a share of the squared moment per rate: it decides between
+/// rates that are equally good otherwise.
 const RIDGE: f64 = 1e-14;
 
 /// What a rate costs beyond its price, by its square: the price times this times the interval times the rate
@@ -88,8 +90,8 @@ impl Resolver {
 #[inline(never)]
 fn program(path: &[f64], mean: &[f64], wanted: &[f64], allowed: &Allowed, rate_penalty: f64) -> qp::Problem {
     let squared: f64 = mean.iter().map(|moment| moment * moment).sum();
-    let dearest = STEADINESS * allowed.size * rate_penalty;
-    let ridge = (RIDGE * squared + dearest).max(f64::MIN_POSITIVE);
+    let steadying = STEADINESS * allowed.size * rate_penalty;
+    let ridge = (RIDGE * squared + steadying).max(f64::MIN_POSITIVE);
     let mut program = qp::Problem::new(wanted.len(), ridge);
     let row = |coefficients: &mut dyn Iterator<Item = &f64>| {
         let mut row = [0.0; MAX_VARIABLES];
