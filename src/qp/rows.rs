@@ -75,9 +75,9 @@ impl Rows {
         self.coefficients[..self.count].iter().zip(self.values[..self.count].iter().copied())
     }
 
-    /// Whether `x` satisfies them, as far as rounding allows.
-    pub(super) fn satisfied_by(&self, x: &Vector) -> bool {
-        self.iter().all(|(row, value)| satisfied(row, value, x, MET))
+    /// Whether `x` satisfies them but for this `share` of the terms.
+    pub(super) fn satisfied_by(&self, x: &Vector, share: f64) -> bool {
+        self.iter().all(|(row, value)| satisfied(row, value, x, share))
     }
 
     /// Whether hardly something is left of a row beside the longer ones: by their Gram matrix, eliminated with pivots.

@@ -2,7 +2,7 @@
 
 use super::null_space::NullSpace;
 use super::release::Level;
-use super::rows::{Levels, Rows, WEAK, satisfied};
+use super::rows::{Levels, MET, Rows, WEAK, satisfied};
 use super::triangle::Triangle;
 use super::{MAX_ROWS, MAX_VARIABLES, Outcome, Place, Places, Problem, Vector, largest, product};
 
@@ -19,7 +19,10 @@ const KEPT: f64 = 1e-12;
 const AT_REST: f64 = 2e-11;
 
 /// So often an error that rounding has left of a long way is reduced.
-pub(super) const REPEATS: usize = 25;
+pub(super) const REPEATS: usize = 5;
+
+/// Who has been so many times as far away as the answer brings rounding along.
+const LONG: f64 = 30.0;
 
 /// Steps of less than this share of the variables have no length.
 const STILL: f64 = 1e-10;
@@ -39,6 +42,8 @@ pub(super) struct Search<'a> {
     pub(super) settled: usize,
     pub(super) looked_at: usize,
     pub(super) missed: bool,
+    /// Whether those that are settled are satisfied to the last digit.
+    pub(super) exact: bool,
     pub(super) repeats: usize,
     /// Where they are, always within the bounds.
     pub x: Vector,
@@ -67,6 +72,7 @@ impl<'a> Search<'a> {
             levels,
             settled: 0,
             missed: false,
+            exact: false,
             repeats: 0,
             looked_at: levels.ends[0].min(equalities.count),
             x: [0.0; MAX_VARIABLES],
@@ -105,11 +111,12 @@ impl<'a> Search<'a> {
 
     /// Walks to the minimum.
     pub fn descend(&mut self) -> Outcome {
-        let mut stalls = 0;
+        let (mut stalls, mut farthest) = (0, 0.0_f64);
         for _ in 0..STEPS {
             self.space.span(self.equalities, self.levels, self.looked_at, &self.free);
             let step = self.step();
             let (before, fastest) = (self.x, largest(&step));
+            farthest = farthest.max(largest(&before));
             if !before.iter().zip(&step).all(|(x, step)| (x + step).is_finite()) {
                 break;
             }
@@ -132,15 +139,17 @@ impl<'a> Search<'a> {
                 Level::Last => self.entering(stalls > 0),
             };
             let Some((i, side)) = next else {
-                // Whoever says so looks at the answer itself.
-                if self.problem.equalities.satisfied_by(&self.x) {
+                // Whoever says so looks at the answer itself. Rounding of a long way here is taken back.
+                let equalities = &self.problem.equalities;
+                if equalities.satisfied_by(&self.x, ROUNDING) {
                     return Outcome::Solved;
                 }
-                if self.missed || self.repeats == REPEATS {
-                    return Outcome::Missed;
+                let far = largest(&self.x);
+                if !self.missed && farthest > LONG * far {
+                    (farthest, self.exact, self.wanted) = (far, true, self.equalities.values);
+                    continue;
                 }
-                self.repeats += 1;
-                continue;
+                return if equalities.satisfied_by(&self.x, MET) { Outcome::Solved } else { Outcome::Missed };
             };
             self.free[i] = true;
             self.side[i] = if self.problem.penalty[i] > 0.0 { side.signum() } else { 1.0 };
@@ -220,7 +229,7 @@ impl<'a> Search<'a> {
     pub(super) fn missing(&self) -> [f64; MAX_ROWS] {
         let mut missing = [0.0; MAX_ROWS];
         for (k, (row, _)) in self.equalities.iter().enumerate() {
-            if k >= self.settled || !satisfied(row, self.wanted[k], &self.x, KEPT * self.levels.blur[k]) {
+            if k >= self.settled || self.exact || !satisfied(row, self.wanted[k], &self.x, KEPT * self.levels.blur[k]) {
                 missing[k] = self.wanted[k] - product(row, &self.x);
             }
         }
