@@ -11,18 +11,26 @@
 //!
 //! The method is a primal active set with the equalities eliminated by an orthogonal basis of their null space
 //! (J. Nocedal and S. J. Wright, Numerical Optimization, chapter 16). It starts where the variables are guessed to
-//! be; those that this takes beyond their bounds are held there, and it is tried again. Only if that comes to
-//! nothing, the equalities alone are solved first. The kink of a penalty at 0 is one more
-//! place where a variable can rest. The objective falls with each step that has a length; while steps have
-//! none, the least index enters and leaves, with which no working set comes twice (Y.-Y. Chang and
-//! R. W. Cottle, Mathematical Programming 18 (1980) 127-137). No memory is allocated.
+//! be, and each step goes to the least error of the equalities and, among those points, to the least objective, up to
+//! the first bound; the kink of a penalty at 0 is one more place where a variable can rest. Where the equalities
+//! cannot be satisfied, the bounds against which they press hold from then on. Error and objective fall with each step
+//! that has a length; while steps have none, the least index enters and leaves, with which no working set comes twice
+//! (Y.-Y. Chang and R. W. Cottle, Mathematical Programming 18 (1980) 127-137), and after many of them, what they are
+//! about is rounding.
+//!
+//! Equalities that nearly depend on each other (1e-7 of the longest row is left) are turned until their rows are
+//! orthogonal, and the weak rows come after the strong ones; what is left of 1e-11 and less is left out. An equality is
+//! satisfied if it is off by less than 3e-10 of the sum of its terms' sizes. No memory is allocated.
 
-mod guess;
+mod householder;
 mod null_space;
+mod release;
+mod rows;
 mod search;
 mod triangle;
-mod turn;
 
+use rows::{LITTLE, Levels, NOTHING};
+pub use rows::{Rows, TooMany};
 use search::Search;
 
 /// Largest number of variables.
@@ -30,56 +38,8 @@ pub const MAX_VARIABLES: usize = 8;
 /// Largest number of rows of the equalities and of the objective, each.
 pub const MAX_ROWS: usize = 4;
 
-/// Equalities are met if they are off by less than this share of what their terms could be.
-const MET: f64 = 1e-10;
-
-/// What is below this share of its terms is rounding.
-const ROUNDING: f64 = 1e-14;
-
-/// Weight of |x|^2 beside |E x - e|^2 for an E of unit size: it decides between equal answers only.
-const FIRST_RIDGE: f64 = 1e-18;
-
-/// A bound holds a variable back if the equalities pull at it with more than this share of their error.
-const PULL: f64 = 1e-9;
-
 /// One number for each variable.
 pub type Vector = [f64; MAX_VARIABLES];
-
-/// Linear equations `coefficients` * x = `value`.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Rows {
-    count: usize,
-    coefficients: [Vector; MAX_ROWS],
-    values: [f64; MAX_ROWS],
-}
-
-impl Rows {
-    /// Adds the equation `coefficients` * x = `value`; what exceeds [`MAX_ROWS`] or [`MAX_VARIABLES`] is ignored.
-    pub fn push(&mut self, coefficients: &[f64], value: f64) {
-        if let (Some(row), Some(place)) = (self.coefficients.get_mut(self.count), self.values.get_mut(self.count)) {
-            row.iter_mut().zip(coefficients).for_each(|(place, coefficient)| *place = *coefficient);
-            *place = value;
-            self.count += 1;
-        }
-    }
-
-    /// The equations one by one.
-    #[inline]
-    fn iter(&self) -> impl Iterator<Item = (&Vector, f64)> {
-        self.coefficients[..self.count].iter().zip(self.values[..self.count].iter().copied())
-    }
-
-    /// Largest coefficient.
-    fn size(&self) -> f64 {
-        self.iter().map(|(row, _)| largest(row)).fold(0.0, f64::max)
-    }
-
-    /// Whether `x` solves them, as far as rounding allows; it does on the way from `start`, too.
-    fn met_by(&self, x: &Vector, start: &Vector) -> bool {
-        let reach = MET * largest(x) + ROUNDING * largest(start);
-        self.iter().all(|(row, value)| (product(row, x) - value).abs() <= largest(row) * reach + MET * value.abs())
-    }
-}
 
 /// What is asked for. Variables beyond `variables` are ignored.
 #[derive(Debug, Clone, Copy)]
@@ -174,58 +134,30 @@ pub struct Solution {
 /// Solves `problem`; `guess` where the variables will be saves time and changes nothing but rounding.
 #[must_use]
 pub fn solve(problem: &Problem, guess: &Places) -> Solution {
-    let mut search = Search::new(&problem.objective, &problem.equalities, problem, problem.ridge, &problem.penalty);
-    let mut places = *guess;
-    let mut taken = search.take(&places);
-    while !taken && search.hold(&mut places) {
-        taken = search.take(&places);
-    }
-    let mut outcome = if taken { Outcome::Solved } else { equalities_first(&mut search, problem) };
-    search.complete();
-    if !search.descend() {
-        outcome = Outcome::Unfinished;
-    }
-    let mut x = search.x;
-    (0..problem.variables).for_each(|i| x[i] = problem.bounded(i, x[i]));
-    Solution { x, places: search.places(), outcome }
-}
-
-/// Lets `search` start where the equalities are met as well as the bounds allow, without anything else.
-#[inline(never)]
-fn equalities_first(search: &mut Search<'_>, problem: &Problem) -> Outcome {
     let equalities = &problem.equalities;
-    let size = equalities.size();
-    let ridge = FIRST_RIDGE * if size > 0.0 { size * size } else { 1.0 };
-    let (none, no_penalty) = (Rows::default(), [0.0; MAX_VARIABLES]);
-    let mut first = Search::new(equalities, &none, problem, ridge, &no_penalty);
-    first.start(&search.x);
-    let mut outcome = Outcome::Solved;
-    if !first.descend() {
-        outcome = Outcome::Unfinished;
-    } else if !equalities.met_by(&first.x, &search.x) {
-        // Bounds against which the equalities press stay where they are: their error is the least one.
-        outcome = Outcome::Missed;
-        let (pull, size) = pull(equalities, &first.x);
-        for (i, movable) in search.movable.iter_mut().enumerate() {
-            *movable &= first.free[i] || pull[i].abs() <= PULL * size;
+    let mut search = Search::new(problem, equalities, &Levels::ONE, guess);
+    let mut outcome = Outcome::Unfinished;
+    if search.sees_all() || !equalities.nearly_depend() {
+        outcome = search.descend();
+    }
+    let mut solution = Solution { x: search.x, places: search.places(), outcome };
+    for nothing in [NOTHING, LITTLE] {
+        if solution.outcome == Outcome::Unfinished {
+            solution = solve_in_levels(problem, guess, nothing);
         }
     }
-    search.start(&first.x);
-    if outcome != Outcome::Solved {
-        search.keep();
-    }
-    outcome
+    solution
 }
 
-/// How strongly the error of `rows` at `x` pulls at each variable, and how strongly it could.
-fn pull(rows: &Rows, x: &Vector) -> (Vector, f64) {
-    let (mut pull, mut error_size) = ([0.0; MAX_VARIABLES], 0.0);
-    for (row, value) in rows.iter() {
-        let error = product(row, x) - value;
-        error_size += error.abs();
-        pull.iter_mut().zip(row).for_each(|(pull, coefficient)| *pull += coefficient * error);
-    }
-    (pull, rows.size() * error_size)
+/// [`solve`] for equalities that nearly depend on each other; those of which less than the share `nothing` is left
+/// beside the others are left out.
+#[cold]
+#[inline(never)]
+fn solve_in_levels(problem: &Problem, guess: &Places, nothing: f64) -> Solution {
+    let (turned, levels) = Levels::orthogonal(&problem.equalities, nothing);
+    let mut search = Search::new(problem, &turned, &levels, guess);
+    let outcome = search.descend();
+    Solution { x: search.x, places: search.places(), outcome }
 }
 
 /// Largest absolute value; what is no number does not count.

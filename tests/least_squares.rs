@@ -259,6 +259,51 @@ fn a_price_on_rates_makes_them_smaller() {
     assert!(totals[2].0 < 0.99 * totals[0].0, "{totals:?}");
 }
 
+/// A price that outweighs the moment leaves the rates steady: they neither jump nor take turns (thesis 4.3).
+#[test]
+fn the_highest_price_does_not_make_rates_chatter() {
+    for discretization in [Discretization::Euler, Discretization::Exact] {
+        for price in [1e5, 1e9, 1e300] {
+            let mut scenario = uam::scenarios::find("4.3b").unwrap();
+            let ik = &mut scenario.parameters.ik;
+            (ik.resolution, ik.discretization, ik.rate_penalty) = (Resolution::LeastSquares, discretization, price);
+            let mut coupling = Coupling::new(scenario.structure, &scenario.parameters);
+            let (mut before, mut last) = (coupling.commands.rate_command, [0.0; 7]);
+            for _ in 0..3000 {
+                coupling.step(1e-3);
+                let rates = coupling.commands.rate_command;
+                assert_eq!(coupling.commands.status, Status::Ok);
+                let changes: [f64; 7] = std::array::from_fn(|i| rates[i] - before[i]);
+                for (change, last) in changes.iter().zip(last) {
+                    assert!(change.abs() < 0.1, "{change} at {}", coupling.plant.time);
+                    let turns = change * last < 0.0 && change.abs().min(last.abs()) > 0.02;
+                    assert!(!turns, "{last}, then {change} at {}", coupling.plant.time);
+                }
+                (before, last) = (rates, changes);
+                assert!(discretization == Discretization::Euler || coupling.error() < 1e-9);
+            }
+        }
+    }
+}
+
+/// An arm without mass exerts no moment: the price alone counts, and the path is followed.
+#[test]
+fn an_arm_without_mass_follows_the_path_at_any_price() {
+    for price in [1e-9, 1.0, 4.0, 1e6, 1e300] {
+        let mut p = circle(2.4);
+        (p.ik.resolution, p.ik.rate_penalty) = (Resolution::LeastSquares, price);
+        for link in &mut p.links {
+            (link.mass, link.inertia) = (0.0, 0.0);
+        }
+        let mut coupling = Coupling::new(Structure::DEFAULT, &p);
+        for _ in 0..500 {
+            coupling.step(1e-3);
+            assert_ne!(coupling.commands.status, Status::PathLimited, "at a price of {price}");
+            assert!(coupling.error() < 1e-9, "{:e}", coupling.error());
+        }
+    }
+}
+
 /// Limits may change during a run: from then on they count.
 #[test]
 fn limits_can_be_tuned() {

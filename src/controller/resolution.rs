@@ -21,7 +21,7 @@ use super::limits::{Allowed, Limits};
 use crate::dynamics::Situation;
 use crate::parameters::{MAX_COORDINATES, Parameters, PathAxes, Resolution, Structure};
 use crate::planar::{Vec2, vec2};
-use crate::qp::{self, Outcome, Places};
+use crate::qp::{self, MAX_VARIABLES, Outcome, Places, Rows};
 use crate::vehicle::Vehicle;
 
 /// The interval whose rates are chosen.
@@ -272,10 +272,12 @@ impl Resolver {
     ) -> (SVector<f64, N>, Status) {
         // The unknowns are the differences from the rates found.
         let mut program = qp::Problem::new(self.links, 1.0);
-        for axis in problem.path.row_iter() {
-            let row: SVector<f64, N> = axis.transpose();
-            program.equalities.push(&row.as_slice()[..self.links], 0.0);
-        }
+        let row = |axis: usize| {
+            let mut row = [0.0; MAX_VARIABLES];
+            row.iter_mut().zip(&problem.path.row(axis)).take(self.links).for_each(|(place, path)| *place = *path);
+            (row, 0.0)
+        };
+        program.equalities = Rows::of([row(0), row(1)]);
         for (i, limits) in self.limits[..self.links].iter().enumerate() {
             (program.lower[i], program.upper[i]) = (-limits.rate - found.rate[i], limits.rate - found.rate[i]);
         }

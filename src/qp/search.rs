@@ -1,315 +1,284 @@
 //! From one working set to the next, downhill.
 
 use super::null_space::NullSpace;
+use super::release::Level;
+use super::rows::{Levels, MET, Rows, WEAK, satisfied};
 use super::triangle::Triangle;
-use super::{MAX_ROWS, MAX_VARIABLES, Problem, ROUNDING, Rows, Vector, largest, product};
+use super::{MAX_ROWS, MAX_VARIABLES, Outcome, Place, Places, Problem, Vector, largest, product};
 
 /// Working sets at most; a few are enough, and arithmetic beyond its range alone leads here.
 const STEPS: usize = 100;
 
-/// Slopes below this share of their terms are none.
-const FLAT: f64 = 1e-12;
+/// What is below this share of its terms is rounding.
+const ROUNDING: f64 = 1e-14;
 
-/// The equalities' multipliers, and slopes with them, are off by this share of the slopes without.
-const BLUR: f64 = 2e-15;
+/// Equalities that are settled are allowed this share of what their terms could be.
+const KEPT: f64 = 1e-12;
 
 /// Variables that move by less than this share of the largest motion are at rest.
-const AT_REST: f64 = 1e-12;
+const AT_REST: f64 = 2e-11;
 
-/// Minimises |A x - b|^2 + ridge |x|^2 + sum of penalties within the bounds while E x keeps its value.
+/// So often an error that rounding has left of a long way is reduced.
+pub(super) const REPEATS: usize = 5;
+
+/// Who has been so many times as far away as the answer brings rounding along.
+const LONG: f64 = 30.0;
+
+/// Steps of less than this share of the variables have no length.
+const STILL: f64 = 1e-10;
+
+/// So many steps without length are degenerate; with more, rounding goes round.
+const PATIENCE: usize = 25;
+
+/// Nobody goes farther in one step: where penalties leave the ridge far behind, the direction alone counts.
+const FAR: f64 = 1e100;
+
+/// The variables on their way.
 pub(super) struct Search<'a> {
-    pub(super) objective: &'a Rows,
-    pub(super) equalities: &'a Rows,
     pub(super) problem: &'a Problem,
-    pub(super) ridge: f64,
-    pub(super) penalty: &'a Vector,
-    /// What the left-hand sides of the equalities are to be.
-    pub(super) wanted: [f64; MAX_ROWS],
-    /// Largest coefficient of the equalities.
-    pub(super) size: f64,
-    /// Where it is.
-    pub(super) x: Vector,
-    /// Which variables are in motion; the others rest at an end or at a kink.
+    pub(super) equalities: &'a Rows,
+    pub(super) levels: &'a Levels,
+    /// So many equalities are at their least error, and so many are looked at.
+    pub(super) settled: usize,
+    pub(super) looked_at: usize,
+    pub(super) missed: bool,
+    /// Whether those that are settled are satisfied to the last digit.
+    pub(super) exact: bool,
+    pub(super) repeats: usize,
+    /// Where they are, always within the bounds.
+    pub x: Vector,
+    /// Which are in motion; the others rest at an end or at a kink.
     pub(super) free: [bool; MAX_VARIABLES],
     /// Which may ever move.
     pub(super) movable: [bool; MAX_VARIABLES],
+    /// Whether some of them are penalised.
+    pub(super) penalised: bool,
     /// Sign of each penalised variable in motion: its penalty is linear up to 0.
     pub(super) side: Vector,
+    /// What the left-hand sides of the equalities are to be.
+    pub(super) wanted: [f64; MAX_ROWS],
     /// The directions in which the free variables may move.
     pub(super) space: NullSpace,
-    /// Whether they are at their minimum already.
-    pub(super) settled: bool,
 }
 
 impl<'a> Search<'a> {
-    /// At the point nearest to 0, with every variable at rest.
+    /// Those at rest where `guess` has them, the free ones as near to 0 as their bounds allow.
     #[inline]
-    pub fn new(
-        objective: &'a Rows,
-        equalities: &'a Rows,
-        problem: &'a Problem,
-        ridge: f64,
-        penalty: &'a Vector,
-    ) -> Self {
-        let (mut x, mut movable) = ([0.0; MAX_VARIABLES], [false; MAX_VARIABLES]);
-        for i in 0..problem.variables {
-            x[i] = problem.bounded(i, 0.0);
-            movable[i] = problem.lower[i] < problem.upper[i];
-        }
-        Self {
-            objective,
-            equalities,
+    pub fn new(problem: &'a Problem, equalities: &'a Rows, levels: &'a Levels, guess: &Places) -> Self {
+        let Problem { variables, penalty, lower, upper, .. } = problem;
+        let mut search = Self {
             problem,
-            ridge,
-            penalty,
-            wanted: equalities.values,
-            size: equalities.size(),
-            x,
+            equalities,
+            levels,
+            settled: 0,
+            missed: false,
+            exact: false,
+            repeats: 0,
+            looked_at: levels.ends[0].min(equalities.count),
+            x: [0.0; MAX_VARIABLES],
             free: [false; MAX_VARIABLES],
-            movable,
+            movable: [false; MAX_VARIABLES],
+            penalised: false,
             side: [1.0; MAX_VARIABLES],
+            wanted: equalities.values,
             space: NullSpace::EMPTY,
-            settled: false,
-        }
-    }
-
-    /// Puts the variables at `x`, or as near as the bounds allow; those at an end or at a kink rest. What is no
-    /// number is forgotten.
-    pub fn start(&mut self, x: &Vector) {
-        self.settled = false;
-        for i in 0..self.problem.variables {
-            let x = self.problem.bounded(i, if x[i].is_finite() { x[i] } else { 0.0 });
-            let inside = x > self.problem.lower[i] && x < self.problem.upper[i];
-            self.x[i] = x;
-            self.free[i] = self.movable[i] && inside && !(self.penalty[i] > 0.0 && x == 0.0);
-        }
-        self.take_sides();
-    }
-
-    pub(super) fn take_sides(&mut self) {
-        for i in 0..self.problem.variables {
-            let positive = self.x[i] > 0.0 || (self.x[i] == 0.0 && self.problem.upper[i] > 0.0);
-            self.side[i] = if positive || self.penalty[i] == 0.0 { 1.0 } else { -1.0 };
-        }
-    }
-
-    /// Sets variables free until the equalities have all the rank that they can have: their multipliers are
-    /// unique then, and remain so.
-    pub fn complete(&mut self) {
-        let mut present = self.rank(self.free);
-        if present == self.equalities.count {
-            return;
-        }
-        self.settled = false;
-        let full = self.rank(self.movable);
-        for i in 0..self.problem.variables {
-            if present == full {
-                return;
-            }
-            if self.movable[i] && !self.free[i] {
-                self.free[i] = true;
-                let with = self.rank(self.free);
-                self.free[i] = with > present;
-                present = present.max(with);
+        };
+        for i in 0..*variables {
+            let zero = problem.bounded(i, 0.0);
+            search.penalised |= penalty[i] > 0.0;
+            search.movable[i] = lower[i] < upper[i];
+            let (rests, x) = match guess[i] {
+                Place::Lower => (lower[i].is_finite(), lower[i]),
+                Place::Upper => (upper[i].is_finite(), upper[i]),
+                Place::Zero => (penalty[i] > 0.0 && zero == 0.0, 0.0),
+                Place::Below | Place::Above => (false, 0.0),
+            };
+            search.free[i] = search.movable[i] && !rests;
+            search.x[i] = if rests && search.movable[i] { x } else { zero };
+            let below = guess[i] == Place::Below && lower[i] < 0.0 || upper[i] <= 0.0;
+            if penalty[i] > 0.0 && (zero < 0.0 || zero == 0.0 && below) {
+                search.side[i] = -1.0;
             }
         }
+        search
     }
 
-    /// Number of independent equalities among the `free` variables.
-    fn rank(&mut self, free: [bool; MAX_VARIABLES]) -> usize {
-        self.space.span(self.equalities, self.size, &free);
-        self.space.rank()
+    /// Whether the variables in motion alone keep the equalities well apart.
+    pub fn sees_all(&mut self) -> bool {
+        self.space.span(self.equalities, self.levels, self.looked_at, &self.free);
+        self.space.rank() == self.looked_at && self.space.least() > 3.0 * WEAK * self.space.size
     }
 
-    /// Brings the null space up to date.
-    #[inline]
-    pub(super) fn span(&mut self) {
-        self.space.span(self.equalities, self.size, &self.free);
-    }
-
-    /// Walks to the minimum; false if it was not reached.
-    pub fn descend(&mut self) -> bool {
-        let mut stalled = false;
+    /// Walks to the minimum.
+    pub fn descend(&mut self) -> Outcome {
+        let (mut stalls, mut farthest) = (0, 0.0_f64);
         for _ in 0..STEPS {
-            self.span();
-            if !std::mem::take(&mut self.settled) {
-                let step = self.step();
-                let before = self.x;
-                if !before.iter().zip(&step).all(|(x, step)| (x + step).is_finite()) {
-                    return false;
+            self.space.span(self.equalities, self.levels, self.looked_at, &self.free);
+            let step = self.step();
+            let (before, fastest) = (self.x, largest(&step));
+            farthest = farthest.max(largest(&before));
+            if !before.iter().zip(&step).all(|(x, step)| (x + step).is_finite()) {
+                break;
+            }
+            if let Some((share, i, end)) = self.first_stop(&step, fastest) {
+                self.advance(&step, share, fastest);
+                self.x[i] = end;
+                self.free[i] = false;
+                stalls = if self.rests_at(&before) { stalls + 1 } else { 0 };
+                continue;
+            }
+            self.advance(&step, 1.0, fastest);
+            if stalls > 0 && !self.rests_at(&before) {
+                stalls = 0;
+            }
+            let tired = stalls > PATIENCE;
+            let next = match self.nearer(tired) {
+                Level::Released(i, side) => Some((i, side)),
+                Level::Next => continue,
+                Level::Last if tired => None,
+                Level::Last => self.entering(stalls > 0),
+            };
+            let Some((i, side)) = next else {
+                // Whoever says so looks at the answer itself. Rounding of a long way here is taken back.
+                let equalities = &self.problem.equalities;
+                if equalities.satisfied_by(&self.x, ROUNDING) {
+                    return Outcome::Solved;
                 }
-                if let Some((share, i, end)) = self.first_stop(&step) {
-                    self.advance(&step, share);
-                    self.x[i] = end;
-                    self.free[i] = false;
-                    stalled = self.rests_at(&before);
+                let far = largest(&self.x);
+                if !self.missed && farthest > LONG * far {
+                    (farthest, self.exact, self.wanted) = (far, true, self.equalities.values);
                     continue;
                 }
-                self.advance(&step, 1.0);
-                stalled = stalled && self.rests_at(&before);
-            }
-            let Some((i, side)) = self.entering(stalled) else { return true };
+                return if equalities.satisfied_by(&self.x, MET) { Outcome::Solved } else { Outcome::Missed };
+            };
             self.free[i] = true;
-            self.side[i] = side;
+            self.side[i] = if self.problem.penalty[i] > 0.0 { side.signum() } else { 1.0 };
         }
-        false
+        Outcome::Unfinished
     }
 
     /// Whether it has moved from `before` by no more than rounding.
     fn rests_at(&self, before: &Vector) -> bool {
         let size = largest(&self.x);
-        self.x.iter().zip(before).all(|(x, before)| (x - before).abs() <= ROUNDING * size)
+        self.x.iter().zip(before).all(|(x, before)| (x - before).abs() <= STILL * size)
     }
 
     /// Goes this `share` of the `step`.
     #[inline]
-    pub(super) fn advance(&mut self, step: &Vector, share: f64) {
-        self.x.iter_mut().zip(step).for_each(|(x, step)| *x += share * step);
+    fn advance(&mut self, step: &Vector, share: f64, fastest: f64) {
+        // What is left of numbers that cancel is nothing.
+        let nothing = ROUNDING * share * fastest;
+        for (i, step) in step.iter().enumerate().take(self.problem.variables) {
+            let to = self.x[i] + share * step;
+            let to = if to.abs() <= nothing { 0.0 } else { to };
+            self.x[i] = self.problem.bounded(i, to);
+        }
     }
 
-    /// The way to the minimum over the free variables with the equalities, regardless of their ends.
-    pub(super) fn step(&mut self) -> Vector {
+    /// The way to the minimum over the free variables, regardless of their ends: first of the equalities' error,
+    /// then of the objective.
+    fn step(&mut self) -> Vector {
         let missing = self.missing();
+        let Problem { objective, ridge, .. } = self.problem;
         let mut y = [0.0; MAX_VARIABLES];
         if self.space.dimension() == 0 {
             self.space.put(&mut y, &missing);
-            return self.space.turn.back(y);
+            return self.space.basis.back(y);
         }
-        // Without objective: the ridge and the penalties are ridge |x + slopes / ridge|^2.
-        let slopes = self.slopes();
-        y = self.space.turn.forth(&std::array::from_fn(|i| -(self.x[i] + slopes[i] / self.ridge)));
+        // Without rows, the objective is ridge |x + slopes / ridge|^2.
+        y = self.space.basis.forth(&self.x.map(|x| -x));
+        if self.penalised {
+            let slopes = self.slopes();
+            let steepest = largest(&slopes).max(f64::MIN_POSITIVE);
+            // Slopes that cancel up to rounding do not drive anything away: the ridge decides.
+            let far = (steepest / ridge).min(FAR);
+            for (y, slope) in y.iter_mut().zip(self.space.basis.forth(&slopes)) {
+                if slope.abs() > ROUNDING * steepest {
+                    *y -= slope / steepest * far;
+                }
+            }
+        }
         self.space.put(&mut y, &missing);
         // Each row of the objective adds one coordinate in which it lies, together with those before.
         let rank = self.space.rank();
         let mut triangle = Triangle::default();
-        for (row, value) in self.objective.iter() {
-            let coordinates = self.space.turn.forth(row);
+        for (row, value) in objective.iter() {
+            let coordinates = self.space.basis.forth(row);
             let error = value - product(row, &self.x) - self.space.seen(&coordinates, &y);
-            let turn = &mut self.space.turn;
+            let basis = &mut self.space.basis;
             let mut short = [0.0; MAX_ROWS];
-            short.iter_mut().zip(&turn.pivots()[rank..]).for_each(|(short, pivot)| *short = coordinates[*pivot]);
-            let left = turn.left(&coordinates);
+            short.iter_mut().zip(&basis.pivots()[rank..]).for_each(|(short, pivot)| *short = coordinates[*pivot]);
+            let left = basis.left(&coordinates);
             let squared = product(&left, &left);
             if squared > ROUNDING * ROUNDING * product(&coordinates, &coordinates) {
-                let (pivot, coordinate) = turn.add(&left, squared.sqrt());
-                turn.last(&mut y);
+                let (pivot, coordinate) = basis.add(&left, squared.sqrt());
+                basis.last(&mut y);
                 short[triangle.dimension()] = coordinate;
-                triangle.grow(self.ridge, y[pivot]);
+                triangle.grow(*ridge, y[pivot]);
             }
-            triangle.add(short, error);
+            triangle.add(short, error, 1.0);
         }
-        let turn = &mut self.space.turn;
-        turn.pivots()[rank..].iter().zip(triangle.minimum()).for_each(|(pivot, z)| y[*pivot] = z);
-        let step = turn.back(y);
-        turn.truncate(rank);
+        let basis = &mut self.space.basis;
+        basis.pivots()[rank..].iter().zip(triangle.minimum()).for_each(|(pivot, z)| y[*pivot] = z);
+        let step = basis.back(y);
+        basis.truncate(rank);
         step
     }
 
     /// What the equalities' left-hand sides lack.
-    fn missing(&self) -> [f64; MAX_ROWS] {
+    pub(super) fn missing(&self) -> [f64; MAX_ROWS] {
         let mut missing = [0.0; MAX_ROWS];
-        for ((missing, wanted), (row, _)) in missing.iter_mut().zip(&self.wanted).zip(self.equalities.iter()) {
-            *missing = wanted - product(row, &self.x);
-            if missing.abs() <= ROUNDING * (wanted.abs() + self.size * largest(&self.x)) {
-                *missing = 0.0;
+        for (k, (row, _)) in self.equalities.iter().enumerate() {
+            if k >= self.settled || self.exact || !satisfied(row, self.wanted[k], &self.x, KEPT * self.levels.blur[k]) {
+                missing[k] = self.wanted[k] - product(row, &self.x);
             }
         }
         missing
     }
 
-    /// Lets the equalities keep what they have.
-    pub fn keep(&mut self) {
-        for (wanted, (row, _)) in self.wanted.iter_mut().zip(self.equalities.iter()) {
-            *wanted = product(row, &self.x);
-        }
-    }
-
     /// Half the slopes of the penalties of variables in motion.
-    fn slopes(&self) -> Vector {
-        let free = &self.space.turn.free;
-        std::array::from_fn(|i| 0.5 * self.penalty[i] * self.side[i] * free[i])
-    }
-
-    /// Where a variable in motion has to stop.
-    fn ends(&self, i: usize) -> (f64, f64) {
-        let (lower, upper) = (self.problem.lower[i], self.problem.upper[i]);
-        match (self.penalty[i] > 0.0, self.side[i] > 0.0) {
-            (false, _) => (lower, upper),
-            (true, true) => (lower.max(0.0), upper),
-            (true, false) => (lower, upper.min(0.0)),
-        }
+    pub(super) fn slopes(&self) -> Vector {
+        let free = &self.space.basis.free;
+        std::array::from_fn(|i| 0.5 * self.problem.penalty[i] * self.side[i] * free[i])
     }
 
     /// The first variable that `step` would carry past its end: share of the step, variable and end.
-    fn first_stop(&self, step: &Vector) -> Option<(f64, usize, f64)> {
-        let fastest = largest(step);
+    fn first_stop(&self, step: &Vector, fastest: f64) -> Option<(f64, usize, f64)> {
+        let Problem { variables, penalty, lower, upper, .. } = self.problem;
+        let slow = AT_REST * fastest;
         let mut first: Option<(f64, usize, f64)> = None;
-        for (i, &step) in step.iter().enumerate().take(self.problem.variables) {
-            if step.abs() <= AT_REST * fastest {
-                continue;
-            }
-            let (lower, upper) = self.ends(i);
-            let end = if step > 0.0 { upper } else { lower };
-            let share = ((end - self.x[i]) / step).max(0.0);
-            if share < first.map_or(1.0, |(least, ..)| least) {
-                first = Some((share, i, end));
+        for i in 0..*variables {
+            // A variable in motion stops at the kink of its penalty, too.
+            let (least, most) = match (penalty[i] > 0.0, self.side[i] > 0.0) {
+                (false, _) => (lower[i], upper[i]),
+                (true, true) => (lower[i].max(0.0), upper[i]),
+                (true, false) => (lower[i], upper[i].min(0.0)),
+            };
+            let end = if step[i] > 0.0 { most } else { least };
+            let beyond = if step[i] > 0.0 { self.x[i] + step[i] > end } else { self.x[i] + step[i] < end };
+            if beyond && step[i].abs() > slow {
+                let share = ((end - self.x[i]) / step[i]).max(0.0);
+                if first.is_none_or(|(least, ..)| share < least) {
+                    first = Some((share, i, end));
+                }
             }
         }
         first
     }
 
-    /// The variable at rest that is to move, and the side on which: the steepest one, or that of the least
-    /// index.
-    fn entering(&self, least_index: bool) -> Option<(usize, f64)> {
-        if self.free == self.movable {
-            return None;
+    /// Where the variables are.
+    pub fn places(&self) -> Places {
+        let Problem { variables, lower, upper, .. } = self.problem;
+        let mut places = super::FREE;
+        for i in 0..*variables {
+            places[i] = match (self.free[i], self.side[i] > 0.0) {
+                (true, true) => Place::Above,
+                (true, false) => Place::Below,
+                _ if self.x[i] <= lower[i] => Place::Lower,
+                _ if self.x[i] >= upper[i] => Place::Upper,
+                _ => Place::Zero,
+            };
         }
-        // Half the gradient without penalties.
-        let mut gradient = self.x.map(|x| self.ridge * x);
-        for (row, value) in self.objective.iter() {
-            let error = product(row, &self.x) - value;
-            gradient.iter_mut().zip(row).for_each(|(gradient, coefficient)| *gradient += coefficient * error);
-        }
-        let slopes = self.slopes();
-        let total: Vector = std::array::from_fn(|i| gradient[i] + slopes[i]);
-        let multipliers = self.space.multipliers(&self.space.turn.forth(&total));
-        for (multiplier, (row, _)) in multipliers.iter().zip(self.equalities.iter()) {
-            gradient.iter_mut().zip(row).for_each(|(gradient, coefficient)| *gradient -= coefficient * multiplier);
-        }
-
-        let mut best: Option<(f64, usize, f64)> = None;
-        for i in (0..self.problem.variables).filter(|i| self.movable[*i] && !self.free[*i]) {
-            let (x, weight) = (self.x[i], 0.5 * self.penalty[i]);
-            let upwards = if x < 0.0 { -weight } else { weight };
-            let downwards = if x > 0.0 { weight } else { -weight };
-            let (mut gain, mut side) = (0.0, 1.0);
-            if x < self.problem.upper[i] && -(gradient[i] + upwards) > gain {
-                (gain, side) = (-(gradient[i] + upwards), if x < 0.0 { -1.0 } else { 1.0 });
-            }
-            if x > self.problem.lower[i] && gradient[i] + downwards > gain {
-                (gain, side) = (gradient[i] + downwards, if x > 0.0 { 1.0 } else { -1.0 });
-            }
-            if gain > 0.0
-                && gain > FLAT * (self.terms(i, &multipliers) + weight) + BLUR * largest(&total)
-                && best.is_none_or(|(most, ..)| gain > most)
-            {
-                best = Some((gain, i, side));
-                if least_index {
-                    break;
-                }
-            }
-        }
-        best.map(|(_, i, side)| (i, if self.penalty[i] > 0.0 { side } else { 1.0 }))
-    }
-
-    /// Size of the terms in the gradient of variable `i`, for these `multipliers` of the equalities.
-    fn terms(&self, i: usize, multipliers: &[f64; MAX_ROWS]) -> f64 {
-        let objective = self.objective.iter().map(|(row, value)| {
-            let size = row.iter().zip(&self.x).map(|(a, x)| (a * x).abs()).sum::<f64>() + value.abs();
-            row[i].abs() * size
-        });
-        let equalities =
-            self.equalities.iter().zip(multipliers).map(|((row, _), multiplier)| (row[i] * multiplier).abs());
-        (self.ridge * self.x[i]).abs() + objective.sum::<f64>() + equalities.sum::<f64>()
+        places
     }
 }

@@ -30,11 +30,13 @@ impl Triangle {
         self.dimension += 1;
     }
 
-    /// One more equation `row` * z = `value`, by Givens rotations without square roots.
-    pub fn add(&mut self, mut row: Short, mut value: f64) {
-        let mut weight = 1.0;
+    /// One more equation `row` * z = `value` of this `weight`, by Givens rotations without square roots.
+    pub fn add(&mut self, mut row: Short, mut value: f64, mut weight: f64) {
         for i in 0..self.dimension {
             let first = row[i];
+            if first == 0.0 || weight == 0.0 {
+                continue;
+            }
             let total = self.weights[i] + weight * first * first;
             let (old, new) = (self.weights[i] / total, weight * first / total);
             self.weights[i] = total;

@@ -1,10 +1,12 @@
 //! The same problems for Clarabel (P. J. Goulart and Y. Chen), an interior-point method.
 
 use clarabel::algebra::CscMatrix;
-use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SupportedConeT, ZeroConeT};
+use clarabel::solver::{
+    DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus, SupportedConeT, ZeroConeT,
+};
 use nalgebra::{DMatrix, DVector};
 
-use super::Case;
+use super::case::Case;
 
 /// Rows of `matrix` x + slack = `right` with slacks in `cone`.
 struct Constraints {
@@ -29,13 +31,13 @@ fn sparse(matrix: &DMatrix<f64>, upper_triangle: bool) -> CscMatrix<f64> {
     CscMatrix::new(rows, columns, starts, places, values)
 }
 
-/// The minimum of |`matrix` x - `right`|^2 + `linear` x.
+/// The minimum of |`matrix` x - `right`|^2 + `linear` x; none if the method is not sure of it.
 fn minimum(
     matrix: &DMatrix<f64>,
     right: &DVector<f64>,
     linear: &DVector<f64>,
     constraints: &[Constraints],
-) -> Vec<f64> {
+) -> Option<Vec<f64>> {
     let n = matrix.ncols();
     let hessian = matrix.transpose() * matrix * 2.0;
     let slope: Vec<f64> = (linear - matrix.transpose() * right * 2.0).iter().copied().collect();
@@ -57,7 +59,7 @@ fn minimum(
     let mut solver =
         DefaultSolver::new(&sparse(&hessian, true), &slope, &sparse(&all, false), &limits, &cones, settings).unwrap();
     solver.solve();
-    solver.solution.x.clone()
+    (solver.solution.status == SolverStatus::Solved).then(|| solver.solution.x.clone())
 }
 
 /// Bounds on the first `n` of `columns` variables; infinite ones are none.
@@ -79,16 +81,16 @@ fn bounds(case: &Case, columns: usize) -> Constraints {
 }
 
 /// The least |E x - e| within the bounds.
-pub fn least_equality_error(case: &Case) -> f64 {
+pub fn least_equality_error(case: &Case) -> Option<f64> {
     let n = case.n();
     // A ridge of this size costs nothing that could be seen, and makes the problem strictly convex.
     let (matrix, right) = stacked(&case.equalities, 1e-14, n);
     let x = minimum(&matrix, &right, &DVector::zeros(n), &[bounds(case, n)]);
-    case.equality_error(&DVector::from_vec(x))
+    x.map(|x| case.equality_error(&DVector::from_vec(x)))
 }
 
 /// The cheapest point within the bounds with the same E x as `like`.
-pub fn least_cost(case: &Case, like: &DVector<f64>) -> DVector<f64> {
+pub fn least_cost(case: &Case, like: &DVector<f64>) -> Option<DVector<f64>> {
     let n = case.n();
     // Variables x and t >= |x|.
     let (matrix, right) = stacked(&case.objective, case.problem.ridge, n);
@@ -110,7 +112,7 @@ pub fn least_cost(case: &Case, like: &DVector<f64>) -> DVector<f64> {
         bounds(case, 2 * n),
     ];
     let x = minimum(&matrix, &right, &linear, &constraints);
-    DVector::from_column_slice(&x[..n])
+    x.map(|x| DVector::from_column_slice(&x[..n]))
 }
 
 /// Rows with a ridge under them.

@@ -63,9 +63,9 @@ fn case(random: &mut Random, n: usize) -> Case {
     let value = 3.0 * random.number();
     let mut problem = Problem::new(n, RIDGE);
     for (row, value) in path.iter().zip(velocity) {
-        problem.equalities.push(row, value);
+        problem.equalities.push(row, value).unwrap();
     }
-    problem.objective.push(&moment, value);
+    problem.objective.push(&moment, value).unwrap();
     for (i, &limit) in limits.iter().enumerate() {
         (problem.lower[i], problem.upper[i]) = (-limit, limit);
     }

@@ -5,6 +5,8 @@
 //!
 //! (mean moment on the UAV)^2 + `rate_penalty` * sum of |joint rates|   (3.27) and (4.3)
 //!
+//! with a square of the rates beside their price that keeps them steady ([`STEADINESS`]).
+//!
 //! What the extended Jacobian would do without limits is asked for; so the two agree where no limit
 //! binds, and both keep calm near singular configurations.
 
@@ -14,12 +16,23 @@ use super::{Aims, Interval, Problem, Resolved, Resolver};
 use crate::controller::Status;
 use crate::controller::limits::Allowed;
 use crate::planar::Vec2;
-use crate::qp::{self, MAX_VARIABLES, Outcome, Place};
+use crate::qp::{self, MAX_VARIABLES, Outcome, Place, Rows};
 use crate::vehicle::Vehicle;
 
-/// The ridge of the quadratic program, as a share of the squared moment per rate: it decides between rates
-/// that are equally good otherwise.
+/// The ridge of the quadratic program without a price, as a share of the squared moment per rate: it decides between
+/// rates that are equally good otherwise.
 const RIDGE: f64 = 1e-14;
+
+/// What a rate costs beyond its price, by its square: the price times this times the interval times the rate
+/// \[1/rad\]. At a rate that turns a joint by 1/20 rad in one interval, it costs twice its price.
+///
+/// Without it, a price that outweighs the moment picks as few joints as the path needs, those that follow it with the
+/// smallest sum of rates. Which they are changes at some postures, and as the motion that each choice leads to makes
+/// the other one the better choice, the joints took turns: 2.5 rad/s from one millisecond to the next. From one
+/// interval to the next the arm turns by rates times the interval, and the sums that are compared change by as much;
+/// so the square has to grow with the interval to let the rates go from one choice to the other across several of
+/// them. For short intervals it vanishes.
+const STEADINESS: f64 = 20.0;
 
 /// Mean moments below this are none \[N m\].
 const NO_MOMENT: f64 = 1e-9;
@@ -64,7 +77,8 @@ impl Resolver {
 
         let mean = if aims == Aims::All { moment.row / problem.interval } else { SVector::zeros() };
         let wanted_rate = &wanted.rate.as_slice()[..links];
-        let program = program(path.as_slice(), mean.as_slice(), wanted_rate, &allowed, self.rate_penalty);
+        let program =
+            program(path.as_slice(), mean.as_slice(), wanted_rate, &allowed, [self.rate_penalty, problem.interval]);
         let found = qp::solve(&program, interval.guess);
         rate.as_mut_slice()[..links].copy_from_slice(&found.x[..links]);
         resolved.momentum = problem.moment.row.dot(&rate);
@@ -80,19 +94,27 @@ impl Resolver {
 }
 
 /// The quadratic program for the rates of the joints: on the `path`, column by column, and with the `mean` moment
-/// per rate as the `wanted` ones, as far as is `allowed`. The same for each number of coordinates, so that the
+/// per rate as the `wanted` ones, as far as is `allowed` in an interval of length `interval` \[s\]. The same for each number of coordinates, so that the
 /// library holds one copy.
 #[inline(never)]
-fn program(path: &[f64], mean: &[f64], wanted: &[f64], allowed: &Allowed, rate_penalty: f64) -> qp::Problem {
-    let at = |row: &[f64]| row.iter().zip(wanted).map(|(row, rate)| row * rate).sum();
+fn program(
+    path: &[f64],
+    mean: &[f64],
+    wanted: &[f64],
+    allowed: &Allowed,
+    [rate_penalty, interval]: [f64; 2],
+) -> qp::Problem {
     let squared: f64 = mean.iter().map(|moment| moment * moment).sum();
-    let mut program = qp::Problem::new(wanted.len(), RIDGE * squared.max(f64::MIN_POSITIVE / RIDGE));
-    for axis in 0..2 {
+    let steadying = STEADINESS * interval * rate_penalty;
+    let ridge = (RIDGE * squared + steadying).max(f64::MIN_POSITIVE);
+    let mut program = qp::Problem::new(wanted.len(), ridge);
+    let row = |coefficients: &mut dyn Iterator<Item = &f64>| {
         let mut row = [0.0; MAX_VARIABLES];
-        row.iter_mut().zip(path.iter().skip(axis).step_by(2)).for_each(|(row, path)| *row = *path);
-        program.equalities.push(&row, at(&row));
-    }
-    program.objective.push(mean, at(mean));
+        row.iter_mut().zip(coefficients).for_each(|(place, coefficient)| *place = *coefficient);
+        (row, row.iter().zip(wanted).map(|(row, rate)| row * rate).sum())
+    };
+    program.equalities = Rows::of([0, 1].map(|axis| row(&mut path.iter().skip(axis).step_by(2))));
+    program.objective = Rows::of([row(&mut mean.iter())]);
     for i in 0..wanted.len() {
         (program.lower[i], program.upper[i]) = (allowed.least[i], allowed.most[i]);
         program.penalty[i] = rate_penalty;

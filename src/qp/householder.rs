@@ -5,7 +5,7 @@ use super::{MAX_VARIABLES, Vector, product};
 /// Reflections 1 - `scale` v v^T, one after the other. Each turns what is left of a row into one coordinate, the pivot,
 /// and lets the pivots before alone. Where one coordinate is left, it is the pivot without a reflection.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Turn {
+pub(super) struct Householder {
     reflections: [(Vector, f64); MAX_VARIABLES],
     pivots: [usize; MAX_VARIABLES],
     count: usize,
@@ -17,7 +17,7 @@ pub(super) struct Turn {
     left: Vector,
 }
 
-impl Turn {
+impl Householder {
     /// Of no variables.
     pub const EMPTY: Self = Self {
         reflections: [([0.0; MAX_VARIABLES], 0.0); MAX_VARIABLES],
