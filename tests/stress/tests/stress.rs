@@ -42,7 +42,7 @@ fn fingerprints(said: &str) -> Vec<&str> {
 #[test]
 fn every_promise_is_kept_in_random_couplings() {
     let couplings = if full() { "200000" } else { "20000" };
-    let (kept, said) = play(&["--couplings", couplings]);
+    let (kept, said) = play(&["--couplings", couplings, "--seed", "7"]);
     assert!(kept, "{said}");
     print!("{said}");
 }

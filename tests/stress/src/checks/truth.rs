@@ -48,6 +48,10 @@ impl Check for Truth<'_> {
 
     fn see(&mut self, now: &Now<'_>) -> Result<(), String> {
         let Some(per_plan) = self.case.steps.per_plan else { return Ok(()) };
+        // Near a stop it is planned more often.
+        if per_plan > 1 && self.case.has_stops() {
+            return Ok(());
+        }
         self.unforeseen += now.unforeseen;
         if !now.count.is_multiple_of(per_plan) {
             return Ok(());
