@@ -66,7 +66,7 @@ pub unsafe fn serialize_fmu_state<M: Model>(
     unsafe {
         component::call::<M>(handle, Call::SerializeFMUstate, |instance| {
             let bytes = with(state, |saved| instance.write_saved(saved))?;
-            let place = arguments::list_mut("serializedState", place.cast::<u8>(), size)?;
+            let place = arguments::bytes_mut("serializedState", place, size)?;
             let Some((room, rest)) = place.split_at_mut_checked(bytes.len()) else {
                 return Err(Error::Argument {
                     argument: "size",
@@ -91,7 +91,7 @@ pub unsafe fn deserialize_fmu_state<M: Model>(
     // SAFETY: promised by the caller.
     unsafe {
         component::call::<M>(handle, Call::DeSerializeFMUstate, |instance| {
-            let bytes = arguments::list("serializedState", bytes.cast::<u8>(), size)?;
+            let bytes = arguments::bytes("serializedState", bytes, size)?;
             hand_out(handle, arguments::place("FMUstate", state)?, instance.read_saved(bytes)?)
         })
     }
