@@ -63,9 +63,13 @@ impl Turn {
     #[inline]
     #[must_use]
     pub fn by_small(angle: f64) -> Self {
-        if angle.abs() > 0.03 {
-            return Self::by(angle);
-        }
+        if angle.abs() > 0.03 { Self::by(angle) } else { Self::by_series(angle) }
+    }
+
+    /// By an `angle` \[rad\] that is small in any case: each series ends before the term that rounding hides below
+    /// 0.03 rad.
+    #[inline]
+    fn by_series(angle: f64) -> Self {
         let x = angle * angle;
         let sin = angle - angle * x * (1.0 / 6.0 - x * (1.0 / 120.0 - x * (1.0 / 5040.0)));
         let cos = 1.0 - x * (0.5 - x * (1.0 / 24.0 - x * (1.0 / 720.0)));

@@ -5,6 +5,7 @@ use std::fmt::Display;
 use std::ptr;
 
 use super::c_types::{CallbackFunctions, ComponentEnvironment, LoggerCallback, Status};
+use super::environment::Host;
 
 /// What a message is about. The names are the standard's.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -113,7 +114,7 @@ impl Logger {
     }
 
     /// Hands a message over, if its category is enabled; nothing is composed otherwise.
-    pub fn log(&self, category: Category, message: impl Display) {
+    pub fn log(&self, host: &Host, category: Category, message: impl Display) {
         if !self.enabled[category as usize] {
             return;
         }
@@ -125,7 +126,7 @@ impl Logger {
         // which nothing would be formatted is its own format, and is there as argument nevertheless.
         let format = if text.as_bytes().contains(&b'%') { c"%s" } else { text.as_c_str() };
         // SAFETY: the host vouches for its callback; all texts end with a zero and outlive the call.
-        unsafe {
+        host.visit(|| unsafe {
             callback(
                 self.environment,
                 self.instance_name.as_ptr(),
@@ -134,7 +135,7 @@ impl Logger {
                 format.as_ptr(),
                 text.as_ptr(),
             );
-        }
+        });
     }
 }
 

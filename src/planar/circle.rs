@@ -31,7 +31,7 @@ pub(super) fn turn(angle: f64) -> Turn {
         let steps = shifted - ROUND;
         #[allow(clippy::cast_possible_truncation)] // the last bits are wanted
         let place = shifted.to_bits() as usize % COUNT;
-        return KNOWN[place].then(Turn::by_small((angle - steps * STEP_UPPER) - steps * STEP_LOWER));
+        return KNOWN[place].then(Turn::by_series((angle - steps * STEP_UPPER) - steps * STEP_LOWER));
     }
     let (sin, cos) = angle.sin_cos();
     Turn { cos, sin }
@@ -41,7 +41,7 @@ const fn known() -> [Turn; COUNT] {
     let mut known = [Turn::NONE; COUNT];
     let mut i = 0;
     while i < QUARTER {
-        let Turn { cos, sin } = by_series(i as f64 * STEP);
+        let Turn { cos, sin } = by_long_series(i as f64 * STEP);
         known[i] = Turn { cos, sin };
         known[i + QUARTER] = Turn { cos: -sin, sin: cos };
         known[i + 2 * QUARTER] = Turn { cos: -cos, sin: -sin };
@@ -52,7 +52,7 @@ const fn known() -> [Turn; COUNT] {
 }
 
 /// The turn by an angle of at most a quarter \[rad\]: the power series, summed up from their last terms.
-const fn by_series(angle: f64) -> Turn {
+const fn by_long_series(angle: f64) -> Turn {
     let square = angle * angle;
     let (mut cos, mut sin) = (0.0, 0.0);
     let mut n = 26.0;
