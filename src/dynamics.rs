@@ -388,7 +388,7 @@ impl<const N: usize> Dynamics<N> {
     /// Works out what follows from the kind of hover control and its gains.
     fn heed_autopilot(&mut self) {
         let closed_loop = |gains: &Gains, inertia: f64| {
-            (gains.kd / inertia).max((gains.kp / inertia).sqrt()).max((gains.ki / inertia).cbrt())
+            (gains.kd / inertia).max((gains.kp / inertia).sqrt()).max(libm::cbrt(gains.ki / inertia))
         };
         let Autopilot { mode, altitude, roll, sample_time } = &self.autopilot;
         self.continuous = !self.on_carriage() && *mode == AutopilotMode::Pid && *sample_time == 0.0;

@@ -33,7 +33,7 @@ pub(super) fn turn(angle: f64) -> Turn {
         let place = shifted.to_bits() as usize % COUNT;
         return KNOWN[place].then(Turn::by_series((angle - steps * STEP_UPPER) - steps * STEP_LOWER));
     }
-    let (sin, cos) = angle.sin_cos();
+    let (sin, cos) = libm::sincos(angle);
     Turn { cos, sin }
 }
 
