@@ -1,7 +1,5 @@
 //! Vectors and rotations in the plane.
 
-mod circle;
-
 use nalgebra::SVector;
 
 use crate::memory;
@@ -43,7 +41,8 @@ impl Turn {
     /// By `angle` \[rad\].
     #[must_use]
     pub fn by(angle: f64) -> Self {
-        circle::turn(angle)
+        let (sin, cos) = libm::sincos(angle);
+        Self { cos, sin }
     }
 
     /// By the angle with this cosine and sine.
@@ -63,13 +62,9 @@ impl Turn {
     #[inline]
     #[must_use]
     pub fn by_small(angle: f64) -> Self {
-        if angle.abs() > 0.03 { Self::by(angle) } else { Self::by_series(angle) }
-    }
-
-    /// By an `angle` \[rad\] that is small in any case: each series ends before the term that rounding hides below
-    /// 0.03 rad.
-    #[inline]
-    fn by_series(angle: f64) -> Self {
+        if angle.abs() > 0.03 {
+            return Self::by(angle);
+        }
         let x = angle * angle;
         let sin = angle - angle * x * (1.0 / 6.0 - x * (1.0 / 120.0 - x * (1.0 / 5040.0)));
         let cos = 1.0 - x * (0.5 - x * (1.0 / 24.0 - x * (1.0 / 720.0)));

@@ -34,7 +34,7 @@ fn a_small_turn_equals_the_general_one_to_rounding_up_to_its_bound_and_beyond() 
     }
 }
 
-/// Against the trigonometric functions, all over the circle, at the borders of its parts, and far away, where many turns
+/// Against the trigonometric functions, all over the circle and far away, where many turns
 /// are to be taken off exactly.
 #[test]
 fn a_turn_has_the_cosine_and_sine_of_its_angle() {
