@@ -32,7 +32,7 @@ impl Gains {
     /// Upper estimate of the fastest rate at which the law answers with this mass or inertia in its loop \[1/s\].
     #[must_use]
     pub fn rate_on(&self, inertia: f64) -> f64 {
-        (self.kd / inertia).max((self.kp / inertia).sqrt()).max((self.ki / inertia).cbrt())
+        (self.kd / inertia).max((self.kp / inertia).sqrt()).max(libm::cbrt(self.ki / inertia))
     }
 }
 

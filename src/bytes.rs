@@ -2,7 +2,9 @@
 //!
 //! A [`Tape`] is recorded or played; what has a [`Memory`] passes it by in both cases, number by number, so
 //! that the two can never differ. What is recorded is not readable without knowing of what; who keeps bytes
-//! adds what tells them from others.
+//! adds what tells them from others: a third kind of tape takes down names and kinds of all that passes.
+
+use std::fmt::{Debug, Write};
 
 use nalgebra::SMatrix;
 
@@ -15,7 +17,7 @@ pub trait Memory {
     fn pass(&mut self, tape: &mut Tape<'_>);
 }
 
-/// Bytes that are being written, or read from the front.
+/// Bytes that are being written, or read from the front; or words that say how such bytes are laid out.
 pub struct Tape<'a> {
     direction: Direction<'a>,
     fault: Option<&'static str>,
@@ -24,6 +26,7 @@ pub struct Tape<'a> {
 enum Direction<'a> {
     Recording(&'a mut Vec<u8>),
     Playing(&'a [u8]),
+    Describing(&'a mut String),
 }
 
 impl<'a> Tape<'a> {
@@ -38,6 +41,12 @@ impl<'a> Tape<'a> {
         Self { direction: Direction::Playing(bytes), fault: None }
     }
 
+    /// Names and kinds of everything that passes are appended to `words`, also of what may be missing; the values
+    /// count for nothing.
+    pub fn describing(words: &'a mut String) -> Self {
+        Self { direction: Direction::Describing(words), fault: None }
+    }
+
     /// Whether all that has passed could be played.
     ///
     /// # Errors
@@ -50,9 +59,31 @@ impl<'a> Tape<'a> {
     #[must_use]
     pub fn is_at_its_end(&self) -> bool {
         match &self.direction {
-            Direction::Recording(_) => true,
+            Direction::Recording(_) | Direction::Describing(_) => true,
             Direction::Playing(bytes) => bytes.is_empty(),
         }
+    }
+
+    /// Says what passes next: for descriptions only.
+    #[inline(never)]
+    pub fn name(&mut self, name: &str) {
+        if let Direction::Describing(words) = &mut self.direction {
+            words.push_str(name);
+            words.push(' ');
+        }
+    }
+
+    /// Says how many of it there are.
+    #[inline(never)]
+    fn count(&mut self, count: usize) {
+        if let Direction::Describing(words) = &mut self.direction {
+            // Writing to a string cannot fail.
+            let _ = write!(words, "{count} ");
+        }
+    }
+
+    fn describes(&self) -> bool {
+        matches!(self.direction, Direction::Describing(_))
     }
 
     // One copy each: the callers are many, and none is in a hurry.
@@ -65,11 +96,13 @@ impl<'a> Tape<'a> {
                 Some((word, rest)) => (*value, *bytes) = (u64::from_le_bytes(*word), rest),
                 None => self.fault = Some("they end too early"),
             },
+            Direction::Describing(words) => words.push_str("word "),
         }
     }
 
     #[inline(never)]
     fn numbers(&mut self, values: &mut [f64]) {
+        self.name("real");
         for value in values {
             let mut bits = value.to_bits();
             self.word(&mut bits);
@@ -93,16 +126,31 @@ impl<'a> Tape<'a> {
 
     /// Passes a value out of a closed set.
     pub fn choice(&mut self, choice: &mut dyn Choice) {
+        choice.items().iter().for_each(|item| self.name(item.name));
         let number = usize::try_from(choice.number() - 1).unwrap_or_default();
         let number = self.alternative(number, choice.items().len());
         choice.choose(i32::try_from(number + 1).unwrap_or_default());
     }
 
     /// Passes one of several values.
-    pub fn one_of<T: Copy + PartialEq>(&mut self, value: &mut T, all: &[T]) {
+    pub fn one_of<T: Copy + PartialEq + Debug>(&mut self, value: &mut T, all: &[T]) {
+        if self.describes() {
+            self.name(&format!("{all:?}"));
+        }
         let number = all.iter().position(|other| other == value).unwrap_or_default();
         if let Some(found) = all.get(self.alternative(number, all.len())) {
             *value = *found;
+        }
+    }
+
+    /// Passes what is there or not, as something else decides that the bytes need not tell.
+    pub fn settled<T: Memory + Default>(&mut self, value: &mut Option<T>) {
+        self.name("settled");
+        if self.describes() {
+            value.get_or_insert_default();
+        }
+        if let Some(value) = value {
+            value.pass(self);
         }
     }
 }
@@ -121,32 +169,45 @@ impl Memory for u64 {
 
 impl Memory for bool {
     fn pass(&mut self, tape: &mut Tape<'_>) {
+        tape.name("truth");
         *self = tape.alternative(usize::from(*self), 2) == 1;
     }
 }
 
 impl<const R: usize, const C: usize> Memory for SMatrix<f64, R, C> {
     fn pass(&mut self, tape: &mut Tape<'_>) {
+        [R, C].into_iter().for_each(|count| tape.count(count));
         tape.numbers(self.as_mut_slice());
     }
 }
 
 impl<T: Memory, const N: usize> Memory for [T; N] {
     fn pass(&mut self, tape: &mut Tape<'_>) {
+        tape.count(N);
         self.iter_mut().for_each(|element| element.pass(tape));
     }
 }
 
 impl<T: Memory + Default> Memory for Option<T> {
     fn pass(&mut self, tape: &mut Tape<'_>) {
+        tape.name("perhaps");
         let mut is_there = self.is_some();
         is_there.pass(tape);
-        if is_there {
+        if is_there || tape.describes() {
             self.get_or_insert_default().pass(tape);
         } else {
             *self = None;
         }
     }
+}
+
+/// Passes variables by a tape, after their names.
+#[macro_export]
+macro_rules! pass {
+    ($tape:ident: $($variable:ident),+ $(,)?) => {
+        $tape.name(concat!($(stringify!($variable), " "),+));
+        $($crate::bytes::Memory::pass($variable, $tape);)+
+    };
 }
 
 /// Says that a structure remembers all of its fields.
@@ -157,6 +218,7 @@ macro_rules! memory {
             fn pass(&mut self, tape: &mut $crate::bytes::Tape<'_>) {
                 // Without "..": none can be forgotten.
                 let Self { $($field),+ } = self;
+                tape.name(concat!(stringify!($type), $(" ", stringify!($field)),+));
                 $($crate::bytes::Memory::pass($field, tape);)+
             }
         }
@@ -221,6 +283,65 @@ mod tests {
         let bytes = recorded(nan);
         nan.pass(&mut Tape::playing(&bytes));
         assert_eq!(nan.to_bits(), 0x7ff8_dead_beef_0001);
+    }
+
+    fn described(mut value: impl Memory) -> String {
+        let mut words = String::new();
+        value.pass(&mut Tape::describing(&mut words));
+        words
+    }
+
+    /// A description depends on the type and never on the value.
+    #[test]
+    fn a_description_is_that_of_the_type() {
+        let words = described(sample());
+        let other = Sample { number: f64::NAN, truth: false, there: None, missing: Some(7.0), ..sample() };
+        assert_eq!(described(other), words);
+        let names = ["Sample", "number", "count", "truth", "matrix", "list", "there", "missing"];
+        let mut rest = words.as_str();
+        for name in names {
+            rest = rest.split_once(&format!("{name} ")).unwrap_or_else(|| panic!("no {name} in {words}")).1;
+        }
+    }
+
+    /// Whatever changes the meaning of the bytes changes the description, also where their number stays the same.
+    #[test]
+    fn every_change_of_a_layout_changes_its_description() {
+        macro_rules! variant {
+            ($($field:ident: $type:ty),+) => {{
+                #[derive(Default)]
+                struct Sample { $($field: $type),+ }
+                memory!(Sample { $($field),+ });
+                described(Sample::default())
+            }};
+        }
+        let variants = [
+            variant!(a: f64, b: f64),
+            variant!(b: f64, a: f64),
+            variant!(a: f64, c: f64),
+            variant!(a: f64, b: u64),
+            variant!(a: f64, b: bool),
+            variant!(a: f64),
+            variant!(a: f64, b: f64, c: f64),
+            variant!(a: [f64; 2]),
+            variant!(a: [f64; 3]),
+            variant!(a: SMatrix<f64, 2, 1>),
+            variant!(a: SMatrix<f64, 1, 2>),
+            variant!(a: Option<f64>),
+            variant!(a: Option<Option<f64>>),
+            variant!(a: Option<bool>),
+        ];
+        for (i, one) in variants.iter().enumerate() {
+            assert!(variants[..i].iter().all(|other| other != one), "{one}");
+        }
+
+        let words = |all: &[&str]| {
+            let mut words = String::new();
+            Tape::describing(&mut words).one_of(&mut { all[0] }, all);
+            words
+        };
+        assert_ne!(words(&["up", "down"]), words(&["down", "up"]));
+        assert_ne!(words(&["up", "down"]), words(&["up", "over"]));
     }
 
     #[test]

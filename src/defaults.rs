@@ -42,7 +42,7 @@ pub fn default_parameters(structure: Structure) -> Parameters {
     };
     let angles = start_angles(links);
     // Where the payload is taken over, its weight is carried by the support, and stays so for an instant.
-    let grasp_height = dy - LINK_LENGTH * absolute(&angles[..links]).map(f64::cos).sum::<f64>();
+    let grasp_height = dy - LINK_LENGTH * absolute(&angles[..links]).map(libm::cos).sum::<f64>();
     Parameters {
         gravity,
         uav: Uav { mass: uav_mass, inertia: 0.4097 },
@@ -121,7 +121,7 @@ fn start_angles(links: usize) -> [f64; MAX_LINKS] {
             let fold = 0.4 * PI;
             #[allow(clippy::cast_precision_loss)] // a few links
             let n = links as f64;
-            let first = (-fold.sin() * (n - 1.0) / (2.0 * n - 1.0)).asin();
+            let first = libm::asin(-libm::sin(fold) * (n - 1.0) / (2.0 * n - 1.0));
             angles[0] = first;
             angles[1] = fold - first;
             for (i, angle) in angles.iter_mut().enumerate().take(links).skip(2) {

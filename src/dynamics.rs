@@ -31,14 +31,14 @@ pub use loads::{Load, Loads};
 pub use rates::Rates;
 
 use crate::autopilot::{Autopilot, AutopilotMode};
-use crate::bytes::{Memory, Tape};
+use crate::bytes::Tape;
 use crate::error::{Error, Result};
-use crate::memory;
 use crate::momentum::Twist;
 use crate::parameters::{BaseModel, MomentModel, Parameters, Structure, Support};
 use crate::planar::{Turn, Vec2, vec2};
 use crate::variables::Bounds;
 use crate::vehicle::{Balancer, Vehicle};
+use crate::{memory, pass};
 
 /// Shortest sample time of an autopilot that is not continuous \[s\].
 pub const SHORTEST_SAMPLE: f64 = 1e-6;
@@ -325,8 +325,8 @@ impl<const N: usize> Dynamics<N> {
 
     /// Passes the gains in force by a tape: those of the finished step, where the parameters may be ahead.
     pub fn pass_gains(&mut self, tape: &mut Tape<'_>) {
-        self.autopilot.altitude.pass(tape);
-        self.autopilot.roll.pass(tape);
+        let Autopilot { altitude, roll, .. } = &mut self.autopilot;
+        pass!(tape: altitude, roll);
         self.heed_autopilot();
     }
 

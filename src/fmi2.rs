@@ -5,6 +5,7 @@
 //! export      names in C, by the macro export_fmi2!
 //! calls       pointers in, status out            (unsafe)
 //! component   handle, panics, error messages     (unsafe)
+//! environment the processor as calls want it      (unsafe)
 //! instance    semantics of each call             (safe)
 //! model       what a simulation must offer
 //! ```
@@ -14,6 +15,7 @@ pub mod c_types;
 pub mod calls;
 pub mod capabilities;
 pub mod component;
+pub mod environment;
 pub mod error;
 mod export;
 pub mod hash;

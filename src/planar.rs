@@ -1,7 +1,5 @@
 //! Vectors and rotations in the plane.
 
-mod circle;
-
 use nalgebra::SVector;
 
 use crate::memory;
@@ -43,7 +41,8 @@ impl Turn {
     /// By `angle` \[rad\].
     #[must_use]
     pub fn by(angle: f64) -> Self {
-        circle::turn(angle)
+        let (sin, cos) = libm::sincos(angle);
+        Self { cos, sin }
     }
 
     /// By the angle with this cosine and sine.

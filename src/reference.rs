@@ -227,8 +227,8 @@ impl Reference {
                 let whole = Leg { duration: self.circle.duration, ramp: 0.5 * self.circle.duration, ..Leg::NONE };
                 let [angle, rate, acceleration] = whole.progress(t).map(|share| turn * share);
                 let radius = 0.5 * self.circle.diameter;
-                let (sin_0, cos_0) = self.circle.start_angle.sin_cos();
-                let (sin, cos) = (self.circle.start_angle + angle).sin_cos();
+                let [cos_0, sin_0] = Turn::by(self.circle.start_angle).cos_sin();
+                let [cos, sin] = Turn::by(self.circle.start_angle + angle).cos_sin();
                 target.displacement += radius * vec2(cos - cos_0, sin - sin_0);
                 target.velocity = radius * rate * vec2(-sin, cos);
                 target.acceleration = radius * (acceleration * vec2(-sin, cos) - rate * rate * vec2(cos, sin));

@@ -34,7 +34,7 @@ fn a_small_turn_equals_the_general_one_to_rounding_up_to_its_bound_and_beyond() 
     }
 }
 
-/// Against the trigonometric functions, all over the circle, at the borders of its parts, and far away, where many turns
+/// Against the trigonometric functions, all over the circle and far away, where many turns
 /// are to be taken off exactly.
 #[test]
 fn a_turn_has_the_cosine_and_sine_of_its_angle() {
@@ -49,6 +49,28 @@ fn a_turn_has_the_cosine_and_sine_of_its_angle() {
     }
     for angle in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         assert!(Turn::by(angle).apply(vec2(1.0, 0.0)).x.is_nan(), "{angle}");
+    }
+}
+
+/// A host may have set its processor to round otherwise: a turn then comes out rounded otherwise, but it comes out.
+#[cfg(target_arch = "x86_64")]
+#[test]
+fn a_turn_has_an_end_however_the_processor_rounds() {
+    /// MXCSR: to nearest, down, up, towards zero.
+    const ROUNDING: [u32; 4] = [0x1f80, 0x3f80, 0x5f80, 0x7f80];
+    let set = |word: u32| {
+        // SAFETY: the usual word is back before anything but the turns is computed.
+        unsafe { std::arch::asm!("ldmxcsr [{}]", in(reg) &raw const word, options(nostack)) }
+    };
+    for word in ROUNDING {
+        let angles: Vec<f64> = (-700..=700).map(|i| f64::from(i) * 0.009).collect();
+        set(word);
+        let turns: Vec<_> = std::hint::black_box(&angles).iter().map(|angle| Turn::by(*angle)).collect();
+        set(ROUNDING[0]);
+        for (angle, turn) in angles.iter().zip(turns) {
+            let turned = turn.apply(vec2(1.0, 0.0));
+            assert!((turned - vec2(angle.cos(), angle.sin())).amax() < 2e-15, "{angle}, {word:x}");
+        }
     }
 }
 

@@ -42,6 +42,19 @@ pub fn compile(workspace: &Path, packages: &[&str], toolchain: Toolchain, progre
 }
 
 impl Compiled {
+    /// Where the program of a package is.
+    ///
+    /// # Errors
+    /// If there is none.
+    pub fn program(&self, package: &str) -> Result<PathBuf> {
+        let mut artifacts = Message::parse_stream(self.messages.as_slice()).filter_map(std::result::Result::ok);
+        let program = artifacts.find_map(|message| match message {
+            Message::CompilerArtifact(artifact) if artifact.target.name == package => artifact.executable,
+            _ => None,
+        });
+        program.map(PathBuf::from).ok_or_else(|| Error::NoProgram { package: package.to_owned() })
+    }
+
     /// The shared library of a package.
     ///
     /// # Errors

@@ -42,6 +42,12 @@ pub enum Error {
         /// What it wrote.
         output: String,
     },
+    /// A package without a program.
+    #[error("the package {package} has no program")]
+    NoProgram {
+        /// The package.
+        package: String,
+    },
     /// The build went through, but a library is missing.
     #[error(
         "cargo built package {package} but reported no shared library with the ending .{extension}; \

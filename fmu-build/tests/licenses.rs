@@ -1,6 +1,6 @@
 //! The FMUs name everything that is compiled into their libraries, and its licence.
 
-#![allow(clippy::unwrap_used, reason = "helpers of tests may fail like tests")]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests may fail like tests")]
 
 use std::collections::{BTreeSet, HashSet};
 use std::env;
@@ -29,12 +29,17 @@ fn what_is_by_others_is_named_with_a_licence_that_it_offers() {
         text.split(|c: char| !(c.is_alphanumeric() || "-_".contains(c))).map(str::to_owned).collect()
     };
     let (apache, bsd) = THIRD_PARTY.split_once("Under the BSD").unwrap();
-    let (apache, bsd) = (words(apache), words(bsd));
+    let (bsd, mit) = bsd.split_once("Under the MIT").unwrap();
+    let [apache, bsd, mit] = [apache, bsd, mit].map(words);
     let packages = packages();
     assert!(packages.iter().any(|(name, _)| name == "nalgebra"));
     for (name, license) in packages.iter().filter(|(name, _)| !name.starts_with("uam")) {
-        let named = if license.contains("Apache-2.0") { &apache } else { &bsd };
-        assert!(license.contains("Apache-2.0") || license == "BSD-3-Clause", "{name}: {license}");
+        let named = match license.as_str() {
+            license if license.contains("Apache-2.0") => &apache,
+            "BSD-3-Clause" => &bsd,
+            "MIT" => &mit,
+            _ => panic!("{name}: {license}"),
+        };
         assert!(named.contains(name), "modelDescription/THIRD-PARTY does not name {name} ({license})");
     }
 }

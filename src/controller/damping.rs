@@ -79,8 +79,8 @@ impl MomentDamping {
     }
 
     fn factors_of(&self, size: f64) -> Factors {
-        let fading = (-size / self.washout).exp();
-        let gain = (self.damping * (1.0 + self.more) * size).exp_m1() * fading;
+        let fading = libm::exp(-size / self.washout);
+        let gain = libm::expm1(self.damping * (1.0 + self.more) * size) * fading;
         Factors { size, left: 1.0 / (1.0 + gain), approach: 1.0 - fading }
     }
 

@@ -22,6 +22,7 @@ use crate::bytes::{Memory, Tape};
 use crate::error::{Error, Result};
 use crate::momentum::{Twist, inertial_moments, outboard_drift, outboard_momentum};
 use crate::parameters::{Actuation, Parameters};
+use crate::pass;
 use crate::planar::{Vec2, cross};
 
 /// A joint resists its torque if this share of the inertia outboard of it does not move with base and other joints.
@@ -35,9 +36,17 @@ pub struct Driven<const N: usize> {
     momentum: SVector<f64, N>,
 }
 
+impl<const N: usize> Default for Driven<N> {
+    fn default() -> Self {
+        Self { joints: [false; N], momentum: SVector::zeros() }
+    }
+}
+
 impl<const N: usize> Memory for Driven<N> {
     fn pass(&mut self, tape: &mut Tape<'_>) {
-        self.momentum.pass(tape);
+        // Without "..": whoever adds a field decides here whether it follows from the parameters.
+        let Self { joints: _, momentum } = self;
+        pass!(tape: momentum);
     }
 }
 

@@ -4,12 +4,15 @@ use std::borrow::Cow;
 use std::ffi::CStr;
 use std::slice;
 
-use super::c_types::Text;
+use super::c_types::{Byte, Text};
 use super::error::Error;
 
 /// Most elements of a list. Hosts may name a variable more than once, and give more room than is needed; a
 /// length beyond this is a mistake, and believing it would mean to read whatever lies there.
 pub const LONGEST: usize = 1 << 16;
+
+/// Most bytes of a state, for which hosts may keep as much room as they like: a length beyond this is a mistake.
+pub const MOST_BYTES: usize = 1 << 30;
 
 /// The `count` elements at `data`. Nothing is read if `count` is 0.
 ///
@@ -23,7 +26,7 @@ pub unsafe fn list<'a, T>(argument: &'static str, data: *const T, count: usize) 
     if count == 0 {
         return Ok(&[]);
     }
-    check_list(argument, data, count)?;
+    check(argument, data, count, LONGEST)?;
     // SAFETY: promised by the caller; [`LONGEST`] is far below what a slice may span.
     Ok(unsafe { slice::from_raw_parts(data, count) })
 }
@@ -40,25 +43,57 @@ pub unsafe fn list_mut<'a, T>(argument: &'static str, data: *mut T, count: usize
     if count == 0 {
         return Ok(&mut []);
     }
-    check_list(argument, data, count)?;
+    check(argument, data, count, LONGEST)?;
     // SAFETY: promised by the caller; [`LONGEST`] is far below what a slice may span.
     Ok(unsafe { slice::from_raw_parts_mut(data, count) })
 }
 
+/// The `count` bytes at `data`; otherwise like [`list`].
+///
+/// # Errors
+/// Like [`list`], with [`MOST_BYTES`].
+///
+/// # Safety
+/// Like [`list`].
+pub unsafe fn bytes<'a>(argument: &'static str, data: *const Byte, count: usize) -> Result<&'a [u8], Error> {
+    if count == 0 {
+        return Ok(&[]);
+    }
+    check(argument, data, count, MOST_BYTES)?;
+    // SAFETY: promised by the caller; [`MOST_BYTES`] is below what a slice may span.
+    Ok(unsafe { slice::from_raw_parts(data.cast(), count) })
+}
+
+/// The `count` bytes at `data`, to be written; otherwise like [`bytes`].
+///
+/// # Errors
+/// Like [`bytes`].
+///
+/// # Safety
+/// Like [`list_mut`].
+pub unsafe fn bytes_mut<'a>(argument: &'static str, data: *mut Byte, count: usize) -> Result<&'a mut [u8], Error> {
+    if count == 0 {
+        return Ok(&mut []);
+    }
+    check(argument, data, count, MOST_BYTES)?;
+    // SAFETY: promised by the caller; [`MOST_BYTES`] is below what a slice may span.
+    Ok(unsafe { slice::from_raw_parts_mut(data.cast(), count) })
+}
+
 #[inline]
-fn check_list<T>(argument: &'static str, data: *const T, count: usize) -> Result<(), Error> {
-    if count <= LONGEST && !data.is_null() && data.is_aligned() { Ok(()) } else { Err(no_list(argument, count)) }
+fn check<T>(argument: &'static str, data: *const T, count: usize, most: usize) -> Result<(), Error> {
+    if count <= most && !data.is_null() && data.is_aligned() { Ok(()) } else { Err(no_list(argument, count, most)) }
 }
 
 /// Why that is no list.
 #[cold]
-fn no_list(argument: &'static str, count: usize) -> Error {
-    if count <= LONGEST {
+fn no_list(argument: &'static str, count: usize, most: usize) -> Error {
+    if count <= most {
         return Error::Pointer { argument };
     }
     Error::Argument {
         argument,
-        expected: format!("a list of at most {LONGEST} elements"),
+        expected: format!("a list of at most {most} elements"),
         found: format!("one of {count}"),
     }
 }

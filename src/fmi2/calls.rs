@@ -14,6 +14,7 @@ use std::borrow::Cow;
 use super::arguments;
 use super::c_types::{self as c, Boolean, Component as Handle, Status, ValueReference, status_kind};
 use super::component::{self, Component};
+use super::environment::Host;
 use super::error::Error;
 use super::identity::Identity;
 use super::instance::{Instance, Scalar};
@@ -55,6 +56,7 @@ pub unsafe fn instantiate<M: Model>(
     logging_on: Boolean,
 ) -> Handle {
     panics::silence();
+    let host = Host::leave();
     // SAFETY: promised by the caller.
     let (name, guid) = unsafe { (arguments::text("instanceName", name), arguments::text("fmuGUID", guid)) };
     // SAFETY: promised by the caller.
@@ -64,17 +66,22 @@ pub unsafe fn instantiate<M: Model>(
     let known_as = name.as_deref().ok().filter(|name| !name.is_empty()).unwrap_or(M::IDENTIFIER);
     let logger = Logger::new(callbacks.as_ref(), known_as, logging_on.holds());
 
-    let instance = panics::caught(|| new_instance::<M>(name.as_ref(), fmu_type, guid.as_ref(), resources.as_deref()));
+    let instance =
+        panics::caught(&host, || new_instance::<M>(name.as_ref(), fmu_type, guid.as_ref(), resources.as_deref()));
     match instance.map_err(Error::Panic).flatten() {
         Ok(instance) => {
             if known_as != name.as_deref().unwrap_or_default() {
                 let name = M::IDENTIFIER;
-                logger.log(Category::StatusWarning, format_args!("instanceName is empty; messages come from {name}"));
+                logger.log(
+                    &host,
+                    Category::StatusWarning,
+                    format_args!("instanceName is empty; messages come from {name}"),
+                );
             }
             Component::into_handle(logger, instance)
         }
         Err(error) => {
-            logger.log(Category::StatusError, format_args!("fmi2Instantiate: {error}"));
+            logger.log(&host, Category::StatusError, format_args!("fmi2Instantiate: {error}"));
             std::ptr::null_mut()
         }
     }
@@ -112,10 +119,10 @@ pub unsafe fn set_debug_logging<M: Model>(
 ) -> Status {
     // SAFETY: promised by the caller.
     unsafe {
-        component::switch_logging::<M>(handle, |logger| {
+        component::switch_logging::<M>(handle, |logger, host| {
             let categories = arguments::list("categories", categories, count)?;
             let names: Vec<_> = categories.iter().map(|name| arguments::text("categories", *name).ok()).collect();
-            logger.switch(on.holds(), &names);
+            logger.switch(host, on.holds(), &names);
             Ok(())
         })
     }
@@ -130,7 +137,7 @@ pub unsafe fn setup_experiment<M: Model>(
 ) -> Status {
     let stop_time = stop_time_defined.holds().then_some(stop_time);
     // SAFETY: promised by the caller.
-    unsafe { component::call::<M>(handle, Call::SetupExperiment, |i| i.setup_experiment(start_time, stop_time)) }
+    unsafe { component::call::<M>(handle, Call::SetupExperiment, move |i| i.setup_experiment(start_time, stop_time)) }
 }
 
 /// `fmi2EnterInitializationMode`.
@@ -170,7 +177,7 @@ pub unsafe fn get<M: Model, T: Scalar>(
 ) -> Status {
     // SAFETY: promised by the caller.
     unsafe {
-        component::call::<M>(handle, T::GET, |instance| {
+        component::call::<M>(handle, T::GET, move |instance| {
             let references = arguments::list("vr", references, count)?;
             instance.get(references, arguments::list_mut("value", values, count)?)
         })
@@ -186,7 +193,7 @@ pub unsafe fn set<M: Model, T: Scalar>(
 ) -> Status {
     // SAFETY: promised by the caller.
     unsafe {
-        component::call::<M>(handle, T::SET, |instance| {
+        component::call::<M>(handle, T::SET, move |instance| {
             let references = arguments::list("vr", references, count)?;
             instance.set(references, arguments::list("value", values, count)?)
         })
@@ -197,14 +204,16 @@ pub unsafe fn set<M: Model, T: Scalar>(
 pub unsafe fn text<M: Model>(handle: Handle, call: Call, references: *const ValueReference, count: c::Size) -> Status {
     // SAFETY: promised by the caller.
     unsafe {
-        component::call::<M>(handle, call, |instance| instance.no_text(call, arguments::list("vr", references, count)?))
+        component::call::<M>(handle, call, move |instance| {
+            instance.no_text(call, arguments::list("vr", references, count)?)
+        })
     }
 }
 
 /// `fmi2DoStep`: the host's promise not to go back is ignored, as hosts give it and go back.
 pub unsafe fn do_step<M: Model>(handle: Handle, from: c::Real, size: c::Real) -> Status {
     // SAFETY: promised by the caller.
-    unsafe { component::call::<M>(handle, Call::DoStep, |instance| instance.do_step(from, size)) }
+    unsafe { component::call::<M>(handle, Call::DoStep, move |instance| instance.do_step(from, size)) }
 }
 
 /// `fmi2GetStatus`: the result of the last step.
@@ -228,7 +237,7 @@ pub unsafe fn get_real_status<M: Model>(handle: Handle, kind: c::StatusKind, val
 pub unsafe fn get_integer_status<M: Model>(handle: Handle, kind: c::StatusKind) -> Status {
     // SAFETY: promised by the caller.
     unsafe {
-        component::call::<M>(handle, Call::GetIntegerStatus, |instance| {
+        component::call::<M>(handle, Call::GetIntegerStatus, move |instance| {
             instance.permit(Call::GetIntegerStatus)?;
             Err(Error::Argument {
                 argument: "the kind of status",
@@ -259,11 +268,11 @@ unsafe fn answer<M: Model, T>(
     call: Call,
     (asked, served): (c::StatusKind, c::StatusKind),
     place: *mut T,
-    status: impl FnOnce(&Instance<M>) -> T,
+    status: impl Fn(&Instance<M>) -> T,
 ) -> Status {
     // SAFETY: promised by the caller.
     unsafe {
-        component::call::<M>(handle, call, |instance| {
+        component::call::<M>(handle, call, move |instance| {
             instance.permit(call)?;
             if asked != served {
                 return Err(Error::Argument {
@@ -281,13 +290,13 @@ unsafe fn answer<M: Model, T>(
 /// Any function of the standard that belongs to a capability which the unit does not declare.
 pub unsafe fn not_offered<M: Model>(handle: Handle, call: Call, flag: &'static str, value: &'static str) -> Status {
     // SAFETY: promised by the caller.
-    unsafe { component::call::<M>(handle, call, |_| Err(Error::NotOffered { flag, value })) }
+    unsafe { component::call::<M>(handle, call, move |_| Err(Error::NotOffered { flag, value })) }
 }
 
 /// Any function of model exchange: never allowed.
 pub unsafe fn model_exchange<M: Model>(handle: Handle, call: Call) -> Status {
     // SAFETY: promised by the caller.
-    unsafe { component::call::<M>(handle, call, |_| Err(Error::ModelExchange)) }
+    unsafe { component::call::<M>(handle, call, move |_| Err(Error::ModelExchange)) }
 }
 
 #[cfg(test)]

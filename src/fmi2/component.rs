@@ -1,6 +1,7 @@
 //! What hides behind the host's handle, and the one way from a C call into an instance.
 
 use super::c_types::{Component as Handle, Status};
+use super::environment::Host;
 use super::error::Error;
 use super::hash::fnv1a;
 use super::instance::Instance;
@@ -53,7 +54,7 @@ impl<M: Model> Component<M> {
         // SAFETY: promised by the caller.
         let Some(this) = (unsafe { Self::find(handle) }) else { return };
         // Nobody can do anything about a destructor that panics.
-        let _ = panics::caught(|| {
+        let _ = panics::caught(&Host::leave(), || {
             states::free_all(handle.addr());
             // SAFETY: alive, as its mark says, and made by `into_handle`. The mark is removed by a write
             // that cannot be optimised away, so that most uses after this are noticed.
@@ -72,80 +73,108 @@ impl<M: Model> Component<M> {
 /// # Safety
 /// The handle must be null or come from `fmi2Instantiate` of this model and not be freed; no other
 /// thread may use it during the call.
+#[inline]
 pub unsafe fn call<M: Model>(
     handle: Handle,
     call: Call,
-    body: impl FnOnce(&mut Instance<M>) -> Result<(), Error>,
+    mut body: impl FnMut(&mut Instance<M>) -> Result<(), Error>,
 ) -> Status {
     // SAFETY: promised by the caller.
-    let Some(this) = (unsafe { Component::<M>::find(handle) }) else { return Status::Error };
-    // SAFETY: alive; loggers change in `switch_logging` only.
-    let logger = unsafe { &(*this).logger };
-    // What comes out is a status, not an error: that is long, and most calls have none.
-    let outcome = panics::caught(|| {
-        // SAFETY: alive, and only this call uses the instance until `body` returns.
-        conclude(logger, call, body(unsafe { &mut (*this).instance }))
-    });
-    outcome.unwrap_or_else(|message| {
-        // SAFETY: as above.
-        unsafe { &mut (*this).instance }.fail();
-        refuse(logger, call, Error::Panic(message))
-    })
+    unsafe { run(handle, call, false, &mut body) }
 }
 
 /// Like [`call`], and the host hears of a success in the category of events.
 ///
 /// # Safety
 /// Like [`call`].
+#[inline]
 pub unsafe fn milestone<M: Model>(
     handle: Handle,
     call: Call,
-    body: impl FnOnce(&mut Instance<M>) -> Result<(), Error>,
+    mut body: impl FnMut(&mut Instance<M>) -> Result<(), Error>,
 ) -> Status {
-    let mut time = 0.0;
     // SAFETY: promised by the caller.
-    let status = unsafe {
-        self::call::<M>(handle, call, |instance| {
-            body(instance)?;
-            time = instance.time();
-            Ok(())
-        })
-    };
-    // SAFETY: as above.
-    if let (Status::Ok, Some(this)) = (status, unsafe { Component::<M>::find(handle) }) {
-        // SAFETY: alive.
-        unsafe { &(*this).logger }.log(Category::Events, format_args!("{call} at t = {time} s"));
+    unsafe { run(handle, call, true, &mut body) }
+}
+
+/// The one way of all calls with an instance, from the host's floating-point environment and back.
+///
+/// It is behind an address for the sake of size, and because the compiler does not know of environments: it might
+/// compute with numbers that the host hands over in registers before its own is in force.
+///
+/// # Safety
+/// Like [`call`].
+#[inline(never)]
+unsafe fn run<M: Model>(
+    handle: Handle,
+    call: Call,
+    is_milestone: bool,
+    body: &mut dyn FnMut(&mut Instance<M>) -> Result<(), Error>,
+) -> Status {
+    // SAFETY: promised by the caller.
+    let Some(this) = (unsafe { Component::<M>::find(handle) }) else { return Status::Error };
+    let host = Host::leave();
+    // SAFETY: alive, and only this call uses the instance until `body` returns. Errors are long, and most calls have none:
+    // in a box, nothing is copied.
+    let outcome = panics::caught(&host, || body(unsafe { &mut (*this).instance }).map_err(Box::new));
+    if !is_milestone && matches!(outcome, Ok(Ok(()))) {
+        return Status::Ok;
     }
-    status
+    // SAFETY: alive.
+    unsafe { conclude(this, &host, call, outcome) }
+}
+
+/// What becomes of an instance that has panicked, and what the host is told in the end.
+///
+/// # Safety
+/// The component must be alive.
+#[cold]
+#[inline(never)]
+unsafe fn conclude<M: Model>(
+    this: *mut Component<M>,
+    host: &Host,
+    call: Call,
+    outcome: Result<Result<(), Box<Error>>, String>,
+) -> Status {
+    // SAFETY: alive; loggers change in `switch_logging` only. The instance is free for what the host calls from its
+    // logger.
+    let (logger, time) = unsafe {
+        if outcome.is_err() {
+            (*this).instance.fail();
+        }
+        (&(*this).logger, (*this).instance.time())
+    };
+    match outcome.map_err(|message| Box::new(Error::Panic(message))).flatten() {
+        Ok(()) => {
+            logger.log(host, Category::Events, format_args!("{call} at t = {time} s"));
+            Status::Ok
+        }
+        Err(error) => refuse(logger, host, call, &error),
+    }
 }
 
 /// Calls `body` with the logger of the instance; otherwise like [`call`].
 ///
 /// # Safety
 /// Like [`call`].
-pub unsafe fn switch_logging<M: Model>(handle: Handle, body: impl FnOnce(&mut Logger) -> Result<(), Error>) -> Status {
+pub unsafe fn switch_logging<M: Model>(
+    handle: Handle,
+    body: impl FnOnce(&mut Logger, &Host) -> Result<(), Error>,
+) -> Status {
     // SAFETY: promised by the caller.
     let Some(this) = (unsafe { Component::<M>::find(handle) }) else { return Status::Error };
+    let host = Host::leave();
     // SAFETY: alive, and only this call uses the logger until `body` returns.
-    let outcome = panics::caught(|| body(unsafe { &mut (*this).logger }));
+    let outcome = panics::caught(&host, || body(unsafe { &mut (*this).logger }, &host));
     // SAFETY: alive.
     let logger = unsafe { &(*this).logger };
-    conclude(logger, Call::SetDebugLogging, outcome.map_err(Error::Panic).flatten())
-}
-
-#[inline]
-fn conclude(logger: &Logger, call: Call, result: Result<(), Error>) -> Status {
-    match result {
+    match outcome.map_err(Error::Panic).flatten() {
         Ok(()) => Status::Ok,
-        Err(error) => refuse(logger, call, error),
+        Err(error) => refuse(logger, &host, Call::SetDebugLogging, &error),
     }
 }
 
-/// Takes the error along, so that its end is written once.
-#[cold]
-#[inline(never)]
-#[allow(clippy::needless_pass_by_value)]
-fn refuse(logger: &Logger, call: Call, error: Error) -> Status {
-    logger.log(Category::StatusError, format_args!("{call}: {error}"));
+fn refuse(logger: &Logger, host: &Host, call: Call, error: &Error) -> Status {
+    logger.log(host, Category::StatusError, format_args!("{call}: {error}"));
     Status::Error
 }

@@ -161,8 +161,10 @@ pub enum Error {
         found: String,
     },
     /// Bytes that are no state of this unit, structure and version.
-    #[error("serializedState must begin with \"{expected}\", but begins with \"{found}\"")]
+    #[error("serializedState is {what}: it must begin with \"{expected}\", but begins with \"{found}\"")]
     ForeignBytes {
+        /// What they are instead.
+        what: String,
         /// What states of this structure begin with.
         expected: String,
         /// What was given.

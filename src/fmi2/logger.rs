@@ -6,6 +6,7 @@ use std::fmt::Display;
 use std::ptr;
 
 use super::c_types::{CallbackFunctions, ComponentEnvironment, LoggerCallback, Status};
+use super::environment::Host;
 
 /// What a message is about. The names are the standard's.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -98,7 +99,7 @@ impl Logger {
 
     /// Switches the named categories, or all of them if none is named. A category that is unknown, or has no name,
     /// is passed over with a warning: what a host would like to hear is no reason to end a simulation.
-    pub fn switch<'a>(&mut self, on: bool, names: &[Option<impl AsRef<str> + 'a>]) {
+    pub fn switch<'a>(&mut self, host: &Host, on: bool, names: &[Option<impl AsRef<str> + 'a>]) {
         let known = |name: &str| CATEGORIES.iter().any(|category| category.0 == name) || UNUSED.contains(&name);
         let named = || names.iter().flatten().map(AsRef::as_ref);
         for (category, enabled) in Category::EACH.into_iter().zip(&mut self.enabled) {
@@ -111,6 +112,7 @@ impl Logger {
         for found in unknown.chain(nameless.map(Cow::from)) {
             let categories = CATEGORIES.map(|category| category.0).join(", ");
             self.log(
+                host,
                 Category::StatusWarning,
                 format_args!("fmi2SetDebugLogging: categories are {categories}; {found} is passed over"),
             );
@@ -118,7 +120,7 @@ impl Logger {
     }
 
     /// Hands a message over, if its category is enabled; nothing is composed otherwise.
-    pub fn log(&self, category: Category, message: impl Display) {
+    pub fn log(&self, host: &Host, category: Category, message: impl Display) {
         if !self.enabled[category as usize] {
             return;
         }
@@ -130,7 +132,7 @@ impl Logger {
         // which nothing would be formatted is its own format, and is there as argument nevertheless.
         let format = if text.as_bytes().contains(&b'%') { c"%s" } else { text.as_c_str() };
         // SAFETY: the host vouches for its callback; all texts end with a zero and outlive the call.
-        unsafe {
+        host.visit(|| unsafe {
             callback(
                 self.environment,
                 self.instance_name.as_ptr(),
@@ -139,7 +141,7 @@ impl Logger {
                 format.as_ptr(),
                 text.as_ptr(),
             );
-        }
+        });
     }
 }
 

@@ -3,6 +3,8 @@
 use std::any::Any;
 use std::panic::{self, AssertUnwindSafe};
 
+use super::environment::Host;
+
 /// Keeps panics from printing. That is for shared libraries, which have a Rust runtime of their own and run
 /// nothing outside of [`caught`]; unit tests tell by panics what fails.
 pub fn silence() {
@@ -12,12 +14,12 @@ pub fn silence() {
     }
 }
 
-/// Calls `action`.
+/// Calls `action`, in the environment that is in force once the host's has been left.
 ///
 /// # Errors
 /// If it panics: the message. What `action` was changing is then in an unknown state; it is for the
 /// caller not to use it any more.
-pub fn caught<R>(action: impl FnOnce() -> R) -> Result<R, String> {
+pub fn caught<R>(_left: &Host, action: impl FnOnce() -> R) -> Result<R, String> {
     panic::catch_unwind(AssertUnwindSafe(action)).map_err(|payload| message(payload.as_ref()))
 }
 
@@ -29,6 +31,10 @@ fn message(payload: &(dyn Any + Send)) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn caught<R>(action: impl FnOnce() -> R) -> Result<R, String> {
+        super::caught(&Host::leave(), action)
+    }
 
     #[test]
     fn messages_of_both_kinds_are_kept() {

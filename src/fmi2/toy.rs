@@ -7,6 +7,7 @@ use crate::bytes::{Memory, Tape};
 use crate::memory;
 use crate::options;
 use crate::options::Choice;
+use crate::pass;
 use crate::unit;
 use crate::variables::{Bounds, Causality, Derivative, Table, Variability};
 
@@ -210,6 +211,7 @@ impl Model for Toy {
     }
 
     fn pass_unnamed(data: &mut Data, tape: &mut Tape<'_>) {
-        data.push.pass(tape);
+        let push = &mut data.push;
+        pass!(tape: push);
     }
 }

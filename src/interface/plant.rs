@@ -11,6 +11,7 @@ use crate::defaults::default_parameters;
 use crate::error::Error;
 use crate::fmi2::{CommunicationStep, Model};
 use crate::parameters::{self, Parameters, Structure};
+use crate::pass;
 use crate::plant::{self, Inputs, Outputs, Rates};
 use crate::variables::Table;
 
@@ -124,7 +125,8 @@ impl Model for PlantUnit {
     }
 
     fn pass_unnamed(data: &mut Data, tape: &mut Tape<'_>) {
-        data.inputs.slopes.pass(tape);
+        let slopes = &mut data.inputs.slopes;
+        pass!(tape: slopes);
     }
 }
 

@@ -10,10 +10,11 @@ use nalgebra::SVector;
 
 use super::Outputs;
 use crate::autopilot::AutopilotMode;
-use crate::bytes::{Memory, Tape};
+use crate::bytes::Tape;
 use crate::dynamics::{Account, Dynamics, Impulse, Load, Loads, Outboard, Situation};
 use crate::memory;
 use crate::momentum::outboard_momentum;
+use crate::pass;
 use crate::planar::{Vec2, vec2};
 use crate::vehicle::Vehicle;
 
@@ -175,11 +176,8 @@ impl<const N: usize> Interval<N> {
             sum = SVector::zeros();
         }
         let Self { previous, time, before, impulse, outboard } = self;
-        previous.pass(tape);
-        time.pass(tape);
-        before.pass(tape);
-        impulse.pass(tape);
-        sum.pass(tape);
+        let outboard_impulse = &mut sum;
+        pass!(tape: previous, time, before, impulse, outboard_impulse);
         outboard.restart(sum);
     }
 }

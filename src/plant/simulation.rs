@@ -9,6 +9,7 @@ use crate::dynamics::{Driven, Dynamics, Instant, Loads, Motion, Situation, Torqu
 use crate::error::Result;
 use crate::memory;
 use crate::parameters::{BaseModel, Parameters, Structure};
+use crate::pass;
 
 /// An aerial manipulator with `N` coordinates, simulated.
 #[derive(Debug, Clone)]
@@ -174,11 +175,9 @@ impl<const N: usize> Memory for Plant<N> {
         // Without "..": whoever adds a field decides here whether it follows from the parameters.
         let Self { dynamics, situation, interval, driven, finished } = self;
         dynamics.pass_gains(tape);
-        situation.pass(tape);
+        pass!(tape: situation);
         interval.pass(dynamics, situation, past(finished), tape);
-        if let Some(driven) = driven {
-            driven.pass(tape);
-        }
-        finished.pass(tape);
+        tape.settled(driven);
+        pass!(tape: finished);
     }
 }

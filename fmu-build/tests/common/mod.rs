@@ -2,6 +2,8 @@
 
 #![allow(dead_code, reason = "every test takes what it needs")]
 
+pub mod emulators;
+
 use std::path::Path;
 use std::sync::Mutex;
 

@@ -101,7 +101,8 @@ impl Gram {
         let mut determinant = 0.0;
         for i in 0..N {
             for j in 0..i {
-                determinant += cross(path.column(i).into(), path.column(j).into()).powi(2);
+                let part = cross(path.column(i).into(), path.column(j).into());
+                determinant += part * part;
             }
         }
         let largest = 0.5 * (xx + yy) + (0.25 * (xx - yy) * (xx - yy) + xy * xy).sqrt();

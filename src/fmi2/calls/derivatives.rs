@@ -16,7 +16,7 @@ pub unsafe fn set_real_input_derivatives<M: Model>(
 ) -> Status {
     // SAFETY: promised by the caller.
     unsafe {
-        component::call::<M>(handle, Call::SetRealInputDerivatives, |instance| {
+        component::call::<M>(handle, Call::SetRealInputDerivatives, move |instance| {
             let references = arguments::list("vr", references, count)?;
             let orders = arguments::list("order", orders, count)?;
             instance.set_input_derivatives(references, orders, arguments::list("value", values, count)?)
@@ -34,7 +34,7 @@ pub unsafe fn get_real_output_derivatives<M: Model>(
 ) -> Status {
     // SAFETY: promised by the caller.
     unsafe {
-        component::call::<M>(handle, Call::GetRealOutputDerivatives, |instance| {
+        component::call::<M>(handle, Call::GetRealOutputDerivatives, move |instance| {
             let references = arguments::list("vr", references, count)?;
             let orders = arguments::list("order", orders, count)?;
             instance.output_derivatives(references, orders, arguments::list_mut("value", values, count)?)

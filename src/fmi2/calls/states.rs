@@ -13,7 +13,7 @@ use crate::fmi2::states;
 pub unsafe fn get_fmu_state<M: Model>(handle: Handle, state: *mut c::FmuState) -> Status {
     // SAFETY: promised by the caller.
     unsafe {
-        component::call::<M>(handle, Call::GetFMUstate, |instance| {
+        component::call::<M>(handle, Call::GetFMUstate, move |instance| {
             hand_out(handle, arguments::place("FMUstate", state)?, instance.save()?)
         })
     }
@@ -30,7 +30,7 @@ pub unsafe fn set_fmu_state<M: Model>(handle: Handle, state: c::FmuState) -> Sta
 pub unsafe fn free_fmu_state<M: Model>(handle: Handle, state: *mut c::FmuState) -> Status {
     // SAFETY: promised by the caller.
     unsafe {
-        component::call::<M>(handle, Call::FreeFMUstate, |_| {
+        component::call::<M>(handle, Call::FreeFMUstate, move |_| {
             if state.is_null() {
                 return Ok(());
             }
@@ -48,7 +48,7 @@ pub unsafe fn free_fmu_state<M: Model>(handle: Handle, state: *mut c::FmuState) 
 pub unsafe fn serialized_fmu_state_size<M: Model>(handle: Handle, state: c::FmuState, size: *mut c::Size) -> Status {
     // SAFETY: promised by the caller.
     unsafe {
-        component::call::<M>(handle, Call::SerializedFMUstateSize, |instance| {
+        component::call::<M>(handle, Call::SerializedFMUstateSize, move |instance| {
             *arguments::place("size", size)? = with(state, |saved| instance.write_saved(saved))?.len();
             Ok(())
         })
@@ -64,9 +64,9 @@ pub unsafe fn serialize_fmu_state<M: Model>(
 ) -> Status {
     // SAFETY: promised by the caller.
     unsafe {
-        component::call::<M>(handle, Call::SerializeFMUstate, |instance| {
+        component::call::<M>(handle, Call::SerializeFMUstate, move |instance| {
             let bytes = with(state, |saved| instance.write_saved(saved))?;
-            let place = arguments::list_mut("serializedState", place.cast::<u8>(), size)?;
+            let place = arguments::bytes_mut("serializedState", place, size)?;
             let Some((room, rest)) = place.split_at_mut_checked(bytes.len()) else {
                 return Err(Error::Argument {
                     argument: "size",
@@ -90,8 +90,8 @@ pub unsafe fn deserialize_fmu_state<M: Model>(
 ) -> Status {
     // SAFETY: promised by the caller.
     unsafe {
-        component::call::<M>(handle, Call::DeSerializeFMUstate, |instance| {
-            let bytes = arguments::list("serializedState", bytes.cast::<u8>(), size)?;
+        component::call::<M>(handle, Call::DeSerializeFMUstate, move |instance| {
+            let bytes = arguments::bytes("serializedState", bytes, size)?;
             hand_out(handle, arguments::place("FMUstate", state)?, instance.read_saved(bytes)?)
         })
     }

@@ -11,6 +11,7 @@ use host::{ERROR, Host, OK, TRUE};
 
 mod allocation;
 mod derivatives;
+mod environment;
 mod host;
 mod misuse;
 mod modes;

@@ -1,12 +1,15 @@
 //! Saved states, in memory and as bytes.
 //!
 //! ```text
-//! FMI 2.0 state, format 1, uam_plant 0.1.0 {299d1a1b-...}\n    what it belongs to
+//! FMI 2.0 state, layout 5c3e8a01d2f4b697, uam_plant 0.1.0 {299d1a1b-...}\n    what it belongs to
 //! length of the content                       8 bytes, little endian
 //! content
 //! checksum of all that                        8 bytes, little endian
 //! zeros, if the host has more room
 //! ```
+//!
+//! The number of the layout is a hash of the names and kinds of all that the content consists of, taken down while it
+//! passes by a tape: who changes what is remembered changes the number and need not think of it.
 
 use super::{Instance, Situation};
 use crate::bytes::{Memory, Tape};
@@ -15,10 +18,11 @@ use crate::fmi2::hash::fnv1a;
 use crate::fmi2::identity::Identity;
 use crate::fmi2::model::Model;
 use crate::fmi2::state::{Call, State};
+use crate::pass;
 use crate::variables::{Kind, Table};
 
-/// Number of the layout of the bytes.
-const FORMAT: u32 = 1;
+/// What the bytes of states of all units like these begin with.
+const PREFIX: &str = "FMI 2.0 state, ";
 
 /// Longest simulation that is believed \[s\]: centuries.
 const LONGEST: f64 = 1e10;
@@ -56,7 +60,8 @@ impl<M: Model> Instance<M> {
     /// If they are not what [`Saved::to_bytes`] gave for this unit and structure.
     pub fn read_saved(&self, bytes: &[u8]) -> Result<Saved<M>, Error> {
         self.permit(Call::DeSerializeFMUstate)?;
-        let content = unwrap(self.title(), bytes)?;
+        let Some(rest) = bytes.strip_prefix(self.title().as_bytes()) else { return Err(self.foreign(bytes)) };
+        let content = unwrap(bytes, rest)?;
         let then = self.read_situation(content).map_err(|reason| Error::Content { reason })?;
         Ok(Saved { structure: self.unit.structure, then })
     }
@@ -94,9 +99,53 @@ impl<M: Model> Instance<M> {
     /// them all. The GUID in it takes longer than all the rest.
     fn title(&self) -> &str {
         self.title.get_or_init(|| {
-            let guid = Identity::<M>::of(self.unit.structure).guid();
-            format!("FMI 2.0 state, format {FORMAT}, {} {} {guid}\n", M::IDENTIFIER, env!("CARGO_PKG_VERSION"))
+            let (layout, guid) = (fnv1a(self.layout().as_bytes()), Identity::<M>::of(self.unit.structure).guid());
+            format!("{PREFIX}layout {layout:016x}, {} {} {guid}\n", M::IDENTIFIER, env!("CARGO_PKG_VERSION"))
         })
+    }
+
+    /// Names and kinds of all that the content consists of.
+    fn layout(&self) -> String {
+        let structure = self.unit.structure;
+        // The library's own start values, which no unit has to do without: they always go together.
+        let mut then = Situation::<M>::new(M::start(structure));
+        let mut model = M::initialize(structure, &mut then.data, 0.0).ok();
+        let mut words = String::new();
+        let mut tape = Tape::describing(&mut words);
+        // However the variables are called in this unit, their states are the same.
+        then.pass(&M::table(structure), &mut true, &mut tape);
+        if let Some(model) = &mut model {
+            model.pass(&mut tape);
+        }
+        words
+    }
+
+    /// Why bytes that do not begin with the title are refused: what they are, as far as they tell.
+    #[cold]
+    fn foreign(&self, bytes: &[u8]) -> Error {
+        let line = bytes.split(|byte| *byte == b'\n').next().unwrap_or_default();
+        let line = String::from_utf8_lossy(&line[..line.len().min(2 * self.title().len())]);
+        let what = match (read_title(&line), read_title(self.title().trim_end())) {
+            (Some(theirs), Some(ours)) => self.difference(&theirs, &ours),
+            _ => "no state of an FMU of this kind".to_owned(),
+        };
+        Error::ForeignBytes {
+            what,
+            expected: self.title().trim_end().to_owned(),
+            found: line.escape_debug().to_string(),
+        }
+    }
+
+    fn difference(&self, theirs: &Title<'_>, ours: &Title<'_>) -> String {
+        if theirs.unit != ours.unit {
+            return format!("a state of the unit {}, but this is {}", theirs.unit, ours.unit);
+        }
+        let others = M::structures().filter(|structure| *structure != self.unit.structure);
+        let of = |structure: &M::Structure| theirs.guid == Identity::<M>::of(*structure).guid().to_string();
+        match others.into_iter().find(of) {
+            Some(structure) => format!("a state of {structure}, but this is {}", self.unit.structure),
+            None => "a state that another version of this unit wrote".to_owned(),
+        }
     }
 
     fn read_situation(&self, content: &[u8]) -> Result<Situation<M>, String> {
@@ -132,12 +181,9 @@ impl<M: Model> Situation<M> {
         // Without "..": whoever adds a field decides here how it is written.
         let Self { state, data, model: _, start_time, stop_time, time, observed, retuned } = self;
         tape.one_of(state, &State::ALL);
-        start_time.pass(tape);
-        stop_time.pass(tape);
-        time.pass(tape);
-        observed.pass(tape);
-        retuned.pass(tape);
+        pass!(tape: start_time, stop_time, time, observed, retuned);
         for variable in table.variables() {
+            tape.name(&variable.name);
             match variable.kind {
                 Kind::Real { at, .. } => at(data, variable.index).pass(tape),
                 Kind::Boolean { at } => at(data, variable.index).pass(tape),
@@ -145,19 +191,24 @@ impl<M: Model> Situation<M> {
             }
         }
         M::pass_unnamed(data, tape);
-        has_model.pass(tape);
+        pass!(tape: has_model);
     }
 }
 
-/// The content of bytes that are complete and belong to `title`.
-fn unwrap<'a>(title: &str, bytes: &'a [u8]) -> Result<&'a [u8], Error> {
-    let Some(rest) = bytes.strip_prefix(title.as_bytes()) else {
-        let beginning = bytes.get(..title.len()).unwrap_or(bytes);
-        return Err(Error::ForeignBytes {
-            expected: title.trim_end().to_owned(),
-            found: String::from_utf8_lossy(beginning).trim_end().escape_debug().to_string(),
-        });
-    };
+/// What a title says of the unit.
+struct Title<'a> {
+    unit: &'a str,
+    guid: &'a str,
+}
+
+fn read_title(line: &str) -> Option<Title<'_>> {
+    let words: Vec<&str> = line.strip_prefix(PREFIX)?.split(' ').collect();
+    let [.., unit, _version, guid] = words[..] else { return None };
+    Some(Title { unit, guid })
+}
+
+/// The content of bytes that are complete; `rest` is what follows their title.
+fn unwrap<'a>(bytes: &[u8], rest: &'a [u8]) -> Result<&'a [u8], Error> {
     let damaged = || Error::Damaged { count: bytes.len() };
     let (length, rest) = rest.split_first_chunk().ok_or_else(damaged)?;
     let length = usize::try_from(u64::from_le_bytes(*length)).map_err(|_| damaged())?;
@@ -166,4 +217,37 @@ fn unwrap<'a>(title: &str, bytes: &'a [u8]) -> Result<&'a [u8], Error> {
     let covered = &bytes[..bytes.len() - rest.len() - checksum.len()];
     let whole = u64::from_le_bytes(*checksum) == fnv1a(covered) && rest.iter().all(|byte| *byte == 0);
     if whole { Ok(content) } else { Err(damaged()) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fmi2::toy::{Size, Toy};
+
+    fn layout(size: Size) -> String {
+        Instance::<Toy>::new(Identity::of(size)).layout()
+    }
+
+    /// What the instance remembers itself, what its variables are, what else of the data counts, and the model.
+    #[test]
+    fn the_layout_names_all_that_a_state_consists_of() {
+        let words = layout(Size::Small);
+        for name in ["start_time", "stop_time", "gain", "up", "held", "push", "Toy", "position"] {
+            assert!(words.contains(&format!(" {name} ")), "{name}: {words}");
+        }
+        assert!(words.contains("Terminated, Failed]"), "{words}");
+        assert!(!words.contains("extra") && layout(Size::Large).contains(" extra "));
+    }
+
+    /// A state says the same of its layout, whatever has happened to the instance.
+    #[test]
+    fn the_layout_does_not_depend_on_the_state() {
+        let mut toy = Instance::<Toy>::new(Identity::of(Size::Small));
+        let new = toy.layout();
+        toy.setup_experiment(1.0, Some(2.0)).unwrap();
+        toy.enter_initialization().unwrap();
+        toy.exit_initialization().unwrap();
+        toy.do_step(1.0, 0.5).unwrap();
+        assert_eq!(toy.layout(), new);
+    }
 }

@@ -41,16 +41,16 @@ pub fn play(unit: &Unit, seed: u64) -> Result<Fate, String> {
         let mut state = ptr::null_mut();
         // SAFETY: as many bytes as said; states are looked up, not read.
         unsafe {
-            let deserialize = guest.functions.deserialize_state;
-            let status = deserialize(guest.component, forged.as_ptr().cast(), forged.len(), &raw mut state);
+            let (bytes, size) = (forged.as_ptr().cast(), forged.len());
+            let status = guest.functions.deserialize_state(guest.component, bytes, size, &raw mut state);
             fate.tried += 1;
             if guest.well("fmi2DeSerializeFMUstate", status)? {
                 fate.accepted += 1;
-                guest.must("fmi2SetFMUstate", (guest.functions.set_state)(guest.component, state))?;
+                guest.must("fmi2SetFMUstate", guest.functions.set_state(guest.component, state))?;
                 go_on(&guest, &mut rng)?;
-                guest.must("fmi2FreeFMUstate", (guest.functions.free_state)(guest.component, &raw mut state))?;
+                guest.must("fmi2FreeFMUstate", guest.functions.free_state(guest.component, &raw mut state))?;
             }
-            guest.must("fmi2SetFMUstate", (guest.functions.set_state)(guest.component, honest))?;
+            guest.must("fmi2SetFMUstate", guest.functions.set_state(guest.component, honest))?;
         }
         if onwards()? != expected {
             return Err("after a forged state the instance does not go on from a true one as before".to_owned());
@@ -58,7 +58,7 @@ pub fn play(unit: &Unit, seed: u64) -> Result<Fate, String> {
     }
     fate.points = guest.points.get();
     // SAFETY: a state of this instance.
-    guest.must("fmi2FreeFMUstate", unsafe { (guest.functions.free_state)(guest.component, &raw mut honest) })?;
+    guest.must("fmi2FreeFMUstate", unsafe { guest.functions.free_state(guest.component, &raw mut honest) })?;
     Ok(fate)
 }
 
@@ -70,7 +70,7 @@ fn somewhere(guest: &Guest<'_>, rng: &mut Rng) -> Result<(), String> {
     }
     if !guest.initialize()? {
         // What was changed does not go together.
-        guest.must("fmi2Reset", unsafe { (guest.functions.reset)(guest.component) })?;
+        guest.must("fmi2Reset", unsafe { guest.functions.reset(guest.component) })?;
         guest.initialize()?;
     }
     for _ in 0..rng.u32(0..6) {
@@ -89,10 +89,10 @@ fn change(guest: &Guest<'_>, rng: &mut Rng, count: usize) -> Result<(), String> 
         // SAFETY: all lists have one element.
         unsafe {
             if variable.real {
-                guest.well("fmi2SetReal", (functions.set_real)(component, place, 1, &raw const value))?;
+                guest.well("fmi2SetReal", functions.set_real(component, place, 1, &raw const value))?;
             } else {
-                guest.well("fmi2SetInteger", (functions.set_integer)(component, place, 1, &raw const number))?;
-                guest.well("fmi2SetBoolean", (functions.set_boolean)(component, place, 1, &raw const number))?;
+                guest.well("fmi2SetInteger", functions.set_integer(component, place, 1, &raw const number))?;
+                guest.well("fmi2SetBoolean", functions.set_boolean(component, place, 1, &raw const number))?;
             }
         }
     }
@@ -112,14 +112,14 @@ fn go_on(guest: &Guest<'_>, rng: &mut Rng) -> Result<(), String> {
     let mut state = save(guest)?;
     serialize(guest, state)?;
     // SAFETY: a state of this instance.
-    guest.must("fmi2FreeFMUstate", unsafe { (guest.functions.free_state)(guest.component, &raw mut state) })
+    guest.must("fmi2FreeFMUstate", unsafe { guest.functions.free_state(guest.component, &raw mut state) })
 }
 
 /// A state; if the outputs have no values, the instance fails in the attempt, and that is its state.
 fn save(guest: &Guest<'_>) -> Result<State, String> {
     let mut state = ptr::null_mut();
     // SAFETY: there is a place for the state.
-    let mut get = || unsafe { (guest.functions.get_state)(guest.component, &raw mut state) };
+    let mut get = || unsafe { guest.functions.get_state(guest.component, &raw mut state) };
     if !guest.well("fmi2GetFMUstate", get())? {
         guest.must("fmi2GetFMUstate", get())?;
     }
@@ -131,8 +131,8 @@ fn serialize(guest: &Guest<'_>, state: State) -> Result<Vec<u8>, String> {
     // SAFETY: the bytes have the length that is said.
     let statuses: [c_int; 2] = unsafe {
         [
-            (guest.functions.state_size)(guest.component, state, &raw mut size),
-            (guest.functions.serialize_state)(guest.component, state, bytes.as_mut_ptr().cast(), bytes.len()),
+            guest.functions.state_size(guest.component, state, &raw mut size),
+            guest.functions.serialize_state(guest.component, state, bytes.as_mut_ptr().cast(), bytes.len()),
         ]
     };
     guest.must("fmi2SerializedFMUstateSize", statuses[0])?;

@@ -5,6 +5,8 @@ use std::path::Path;
 
 use libloading::Library;
 
+use crate::environment;
+
 /// `fmi2Component`.
 pub type Component = *mut c_void;
 /// `fmi2FMUstate`.
@@ -43,13 +45,15 @@ fn open(path: &Path) -> Result<Library, libloading::Error> {
 }
 
 macro_rules! functions {
-    ($($field:ident = $symbol:literal($($argument:ty),*) $(-> $result:ty)?;)+) => {
+    ($($function:ident = $symbol:literal($($argument:ident: $type:ty),*) $(-> $result:ty)?;)+) => {
         /// The functions of one library.
         pub struct Functions {
-            $(#[doc = concat!("`", stringify!($symbol), "`")] pub $field: unsafe extern "C" fn($($argument),*) $(-> $result)?,)+
+            $($function: unsafe extern "C" fn($($type),*) $(-> $result)?,)+
             _library: Library,
         }
 
+        // SAFETY, for all functions: what the standard asks of hosts is what they ask of their callers.
+        #[allow(clippy::missing_safety_doc, clippy::too_many_arguments, reason = "as the standard has them")]
         impl Functions {
             /// Loads a library and looks all functions up.
             ///
@@ -59,45 +63,52 @@ macro_rules! functions {
                 let library = open(path)?;
                 Ok(Self {
                     // SAFETY: the standard fixes the type of every function by its name.
-                    $($field: *unsafe { library.get($symbol) }?,)+
+                    $($function: *unsafe { library.get($symbol) }?,)+
                     _library: library,
                 })
             }
+
+            $(
+                #[doc = concat!("Calls `", $symbol, "` in the floating-point environment of the host.")]
+                pub unsafe fn $function(&self, $($argument: $type),*) $(-> $result)? {
+                    environment::call($symbol, || unsafe { (self.$function)($($argument),*) })
+                }
+            )+
         }
     };
 }
 
 functions! {
-    instantiate = "fmi2Instantiate"(Text, c_int, Text, Text, *const Callbacks, c_int, c_int) -> Component;
-    free_instance = "fmi2FreeInstance"(Component);
-    set_debug_logging = "fmi2SetDebugLogging"(Component, c_int, usize, *const Text) -> c_int;
-    setup_experiment = "fmi2SetupExperiment"(Component, c_int, c_double, c_double, c_int, c_double) -> c_int;
-    enter_initialization = "fmi2EnterInitializationMode"(Component) -> c_int;
-    exit_initialization = "fmi2ExitInitializationMode"(Component) -> c_int;
-    terminate = "fmi2Terminate"(Component) -> c_int;
-    reset = "fmi2Reset"(Component) -> c_int;
-    get_real = "fmi2GetReal"(Component, *const c_uint, usize, *mut c_double) -> c_int;
-    get_integer = "fmi2GetInteger"(Component, *const c_uint, usize, *mut c_int) -> c_int;
-    get_boolean = "fmi2GetBoolean"(Component, *const c_uint, usize, *mut c_int) -> c_int;
-    get_string = "fmi2GetString"(Component, *const c_uint, usize, *mut Text) -> c_int;
-    set_real = "fmi2SetReal"(Component, *const c_uint, usize, *const c_double) -> c_int;
-    set_integer = "fmi2SetInteger"(Component, *const c_uint, usize, *const c_int) -> c_int;
-    set_boolean = "fmi2SetBoolean"(Component, *const c_uint, usize, *const c_int) -> c_int;
-    set_string = "fmi2SetString"(Component, *const c_uint, usize, *const Text) -> c_int;
-    do_step = "fmi2DoStep"(Component, c_double, c_double, c_int) -> c_int;
-    cancel_step = "fmi2CancelStep"(Component) -> c_int;
-    get_status = "fmi2GetStatus"(Component, c_int, *mut c_int) -> c_int;
-    get_real_status = "fmi2GetRealStatus"(Component, c_int, *mut c_double) -> c_int;
-    get_integer_status = "fmi2GetIntegerStatus"(Component, c_int, *mut c_int) -> c_int;
-    get_boolean_status = "fmi2GetBooleanStatus"(Component, c_int, *mut c_int) -> c_int;
-    get_string_status = "fmi2GetStringStatus"(Component, c_int, *mut Text) -> c_int;
-    set_input_derivatives = "fmi2SetRealInputDerivatives"(Component, *const c_uint, usize, *const c_int, *const c_double) -> c_int;
-    get_output_derivatives = "fmi2GetRealOutputDerivatives"(Component, *const c_uint, usize, *const c_int, *mut c_double) -> c_int;
-    get_directional_derivative = "fmi2GetDirectionalDerivative"(Component, *const c_uint, usize, *const c_uint, usize, *const c_double, *mut c_double) -> c_int;
-    get_state = "fmi2GetFMUstate"(Component, *mut State) -> c_int;
-    set_state = "fmi2SetFMUstate"(Component, State) -> c_int;
-    free_state = "fmi2FreeFMUstate"(Component, *mut State) -> c_int;
-    state_size = "fmi2SerializedFMUstateSize"(Component, State, *mut usize) -> c_int;
-    serialize_state = "fmi2SerializeFMUstate"(Component, State, *mut c_char, usize) -> c_int;
-    deserialize_state = "fmi2DeSerializeFMUstate"(Component, *const c_char, usize, *mut State) -> c_int;
+    instantiate = "fmi2Instantiate"(a: Text, b: c_int, c: Text, d: Text, e: *const Callbacks, f: c_int, g: c_int) -> Component;
+    free_instance = "fmi2FreeInstance"(a: Component);
+    set_debug_logging = "fmi2SetDebugLogging"(a: Component, b: c_int, c: usize, d: *const Text) -> c_int;
+    setup_experiment = "fmi2SetupExperiment"(a: Component, b: c_int, c: c_double, d: c_double, e: c_int, f: c_double) -> c_int;
+    enter_initialization = "fmi2EnterInitializationMode"(a: Component) -> c_int;
+    exit_initialization = "fmi2ExitInitializationMode"(a: Component) -> c_int;
+    terminate = "fmi2Terminate"(a: Component) -> c_int;
+    reset = "fmi2Reset"(a: Component) -> c_int;
+    get_real = "fmi2GetReal"(a: Component, b: *const c_uint, c: usize, d: *mut c_double) -> c_int;
+    get_integer = "fmi2GetInteger"(a: Component, b: *const c_uint, c: usize, d: *mut c_int) -> c_int;
+    get_boolean = "fmi2GetBoolean"(a: Component, b: *const c_uint, c: usize, d: *mut c_int) -> c_int;
+    get_string = "fmi2GetString"(a: Component, b: *const c_uint, c: usize, d: *mut Text) -> c_int;
+    set_real = "fmi2SetReal"(a: Component, b: *const c_uint, c: usize, d: *const c_double) -> c_int;
+    set_integer = "fmi2SetInteger"(a: Component, b: *const c_uint, c: usize, d: *const c_int) -> c_int;
+    set_boolean = "fmi2SetBoolean"(a: Component, b: *const c_uint, c: usize, d: *const c_int) -> c_int;
+    set_string = "fmi2SetString"(a: Component, b: *const c_uint, c: usize, d: *const Text) -> c_int;
+    do_step = "fmi2DoStep"(a: Component, b: c_double, c: c_double, d: c_int) -> c_int;
+    cancel_step = "fmi2CancelStep"(a: Component) -> c_int;
+    get_status = "fmi2GetStatus"(a: Component, b: c_int, c: *mut c_int) -> c_int;
+    get_real_status = "fmi2GetRealStatus"(a: Component, b: c_int, c: *mut c_double) -> c_int;
+    get_integer_status = "fmi2GetIntegerStatus"(a: Component, b: c_int, c: *mut c_int) -> c_int;
+    get_boolean_status = "fmi2GetBooleanStatus"(a: Component, b: c_int, c: *mut c_int) -> c_int;
+    get_string_status = "fmi2GetStringStatus"(a: Component, b: c_int, c: *mut Text) -> c_int;
+    set_input_derivatives = "fmi2SetRealInputDerivatives"(a: Component, b: *const c_uint, c: usize, d: *const c_int, e: *const c_double) -> c_int;
+    get_output_derivatives = "fmi2GetRealOutputDerivatives"(a: Component, b: *const c_uint, c: usize, d: *const c_int, e: *mut c_double) -> c_int;
+    get_directional_derivative = "fmi2GetDirectionalDerivative"(a: Component, b: *const c_uint, c: usize, d: *const c_uint, e: usize, f: *const c_double, g: *mut c_double) -> c_int;
+    get_state = "fmi2GetFMUstate"(a: Component, b: *mut State) -> c_int;
+    set_state = "fmi2SetFMUstate"(a: Component, b: State) -> c_int;
+    free_state = "fmi2FreeFMUstate"(a: Component, b: *mut State) -> c_int;
+    state_size = "fmi2SerializedFMUstateSize"(a: Component, b: State, c: *mut usize) -> c_int;
+    serialize_state = "fmi2SerializeFMUstate"(a: Component, b: State, c: *mut c_char, d: usize) -> c_int;
+    deserialize_state = "fmi2DeSerializeFMUstate"(a: Component, b: *const c_char, c: usize, d: *mut State) -> c_int;
 }

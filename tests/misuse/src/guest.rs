@@ -41,7 +41,7 @@ pub struct Guest<'a> {
 impl Drop for Guest<'_> {
     fn drop(&mut self) {
         // SAFETY: not used again.
-        unsafe { (self.functions.free_instance)(self.component) }
+        unsafe { self.functions.free_instance(self.component) }
     }
 }
 
@@ -61,7 +61,7 @@ impl<'a> Guest<'a> {
         let (functions, callbacks) = (&unit.functions, host::callbacks());
         let (name, guid, resources) = (c"guest".as_ptr(), guid.as_ptr(), resources.as_ptr());
         // SAFETY: all texts end with a zero, the callbacks live as long as the call.
-        let component = unsafe { (functions.instantiate)(name, 1, guid, resources, &raw const callbacks, 0, 0) };
+        let component = unsafe { functions.instantiate(name, 1, guid, resources, &raw const callbacks, 0, 0) };
         (!component.is_null()).then(|| Self { variables, functions, component, points: Cell::default() })
     }
 
@@ -91,9 +91,9 @@ impl<'a> Guest<'a> {
     /// Like [`Guest::well`].
     pub fn initialize(&self) -> Result<bool, String> {
         unsafe {
-            let entered = (self.functions.enter_initialization)(self.component);
+            let entered = self.functions.enter_initialization(self.component);
             self.well("fmi2EnterInitializationMode", entered)?;
-            let left = (self.functions.exit_initialization)(self.component);
+            let left = self.functions.exit_initialization(self.component);
             self.well("fmi2ExitInitializationMode", left)
         }
     }
@@ -103,7 +103,7 @@ impl<'a> Guest<'a> {
     /// # Errors
     /// Like [`Guest::well`] and [`outputs::read`].
     pub fn step(&self, from: f64, size: f64) -> Result<bool, String> {
-        let done = self.well("fmi2DoStep", unsafe { (self.functions.do_step)(self.component, from, size, 1) })?;
+        let done = self.well("fmi2DoStep", unsafe { self.functions.do_step(self.component, from, size, 1) })?;
         if done {
             let points = outputs::read(self.functions, self.component, self.reals(), true, |_| ())
                 .map_err(|message| format!("{message} after the step from {from} by {size}"))?;
@@ -116,7 +116,7 @@ impl<'a> Guest<'a> {
     pub fn time(&self) -> f64 {
         // The independent variable is the first.
         let mut value = f64::NAN;
-        unsafe { (self.functions.get_real)(self.component, &0, 1, &raw mut value) };
+        unsafe { self.functions.get_real(self.component, &0, 1, &raw mut value) };
         value
     }
 
@@ -138,7 +138,7 @@ impl<'a> Guest<'a> {
     pub fn bits(&self) -> Vec<u64> {
         let read = |reference: u32| {
             let mut value = f64::NAN;
-            unsafe { (self.functions.get_real)(self.component, &raw const reference, 1, &raw mut value) };
+            unsafe { self.functions.get_real(self.component, &raw const reference, 1, &raw mut value) };
             value.to_bits()
         };
         self.variables.iter().map(|variable| read(variable.reference)).collect()

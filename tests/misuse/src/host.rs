@@ -4,6 +4,7 @@ use std::cell::RefCell;
 use std::ffi::{CStr, c_char, c_int, c_void};
 use std::ptr;
 
+use crate::environment;
 use crate::functions::Callbacks;
 
 thread_local! {
@@ -21,14 +22,16 @@ extern "C" fn log(
     format: *const c_char,
     text: *const c_char,
 ) {
-    SAID.with_borrow_mut(|(count, last)| {
-        *count += 1;
-        last.clear();
-        for text in [instance, category, format, text] {
-            // SAFETY: all texts end with a zero.
-            last.extend(unsafe { CStr::from_ptr(text) }.to_bytes());
-            last.push(b'\n');
-        }
+    environment::callback(|| {
+        SAID.with_borrow_mut(|(count, last)| {
+            *count += 1;
+            last.clear();
+            for text in [instance, category, format, text] {
+                // SAFETY: all texts end with a zero.
+                last.extend(unsafe { CStr::from_ptr(text) }.to_bytes());
+                last.push(b'\n');
+            }
+        });
     });
 }
 

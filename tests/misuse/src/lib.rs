@@ -5,6 +5,7 @@
 
 pub mod crowd;
 pub mod digest;
+pub mod environment;
 pub mod functions;
 pub mod host;
 pub mod unit;

@@ -21,16 +21,16 @@ pub fn run(unit: &Unit, count: u32) -> Result<(), String> {
         // SAFETY: the instance is alive, the bytes have the length that is said.
         let statuses = unsafe {
             [
-                (functions.get_state)(component, &raw mut state),
-                (functions.get_state)(component, &raw mut state),
-                (functions.serialize_state)(component, state, bytes.as_mut_ptr(), bytes.len()),
-                (functions.deserialize_state)(component, bytes.as_ptr(), bytes.len(), &raw mut copy),
-                (functions.set_state)(component, copy),
+                functions.get_state(component, &raw mut state),
+                functions.get_state(component, &raw mut state),
+                functions.serialize_state(component, state, bytes.as_mut_ptr(), bytes.len()),
+                functions.deserialize_state(component, bytes.as_ptr(), bytes.len(), &raw mut copy),
+                functions.set_state(component, copy),
                 // The copy goes with the instance.
-                (functions.free_state)(component, &raw mut state),
-                (functions.do_step)(component, 4e-3, 1e-3, 1),
-                (functions.terminate)(component),
-                (functions.reset)(component),
+                functions.free_state(component, &raw mut state),
+                functions.do_step(component, 4e-3, 1e-3, 1),
+                functions.terminate(component),
+                functions.reset(component),
             ]
         };
         if statuses.iter().any(|status| *status != OK) {

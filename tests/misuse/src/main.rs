@@ -20,8 +20,9 @@ mod reference;
 mod sequence;
 mod starts;
 
+use environment::Environment;
 use guest::{Fate, Guest};
-use misuse::{crowd, digest, functions, host, unit, watch};
+use misuse::{crowd, digest, environment, functions, host, unit, watch};
 use sequence::Outcome;
 use unit::Unit;
 
@@ -62,6 +63,9 @@ struct Options {
     /// Play so many other sequences before, whose answers are not in the fingerprint.
     #[arg(long, value_name = "NUMBER", default_value_t = 0)]
     after: u64,
+    /// Floating-point environment in which the units are called; they must leave it as it is.
+    #[arg(long, value_name = "NAME", value_enum, default_value = "usual")]
+    environment: Environment,
     /// Threads that play at a time.
     #[arg(long, value_name = "NUMBER", default_value_t = 2, value_parser = clap::value_parser!(u16).range(1..=64))]
     threads: u16,
@@ -90,6 +94,7 @@ fn main() -> ExitCode {
 }
 
 fn run(options: &Options) -> Result<(), String> {
+    environment::choose(options.environment);
     let open = |name: &str| {
         let path = options.folder.join(name);
         Unit::open(&path).map_err(|error| format!("{}: {error}", path.display()))

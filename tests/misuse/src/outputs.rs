@@ -86,7 +86,7 @@ pub fn values<'a>(
 ) -> Result<c_int, String> {
     each(variables, "", take, |reference, value| {
         // SAFETY: the instance is alive, the lists have one element.
-        unsafe { (functions.get_real)(component, reference, 1, value) }
+        unsafe { functions.get_real(component, reference, 1, value) }
     })
 }
 
@@ -99,7 +99,7 @@ fn derivatives<'a>(
     let outputs = variables.filter(|variable| variable.output);
     each(outputs, "the derivative of ", take, |reference, value| {
         // SAFETY: as above.
-        unsafe { (functions.get_output_derivatives)(component, reference, 1, &1, value) }
+        unsafe { functions.get_output_derivatives(component, reference, 1, &1, value) }
     })
 }
 

@@ -24,15 +24,15 @@ pub fn run(unit: &Unit, component: Component) -> Result<Vec<u64>, String> {
     // SAFETY: the instance is alive, all lists have the length that goes with them.
     let statuses = unsafe {
         let begun = [
-            (functions.setup_experiment)(component, 0, 0.0, 0.0, 0, 0.0),
-            (functions.enter_initialization)(component),
-            (functions.exit_initialization)(component),
+            functions.setup_experiment(component, 0, 0.0, 0.0, 0, 0.0),
+            functions.enter_initialization(component),
+            functions.exit_initialization(component),
         ];
         if let Some(rate) = unit.reference("joint[1].rate_command").filter(|rate| !references.contains(rate)) {
-            (functions.set_real)(component, &raw const rate, 1, &0.5);
+            functions.set_real(component, &raw const rate, 1, &0.5);
         }
-        let stepped = [(functions.do_step)(component, 0.0, 2e-3, 1), (functions.do_step)(component, 2e-3, 2e-3, 1)];
-        let read = (functions.get_real)(component, references.as_ptr(), references.len(), values.as_mut_ptr());
+        let stepped = [functions.do_step(component, 0.0, 2e-3, 1), functions.do_step(component, 2e-3, 2e-3, 1)];
+        let read = functions.get_real(component, references.as_ptr(), references.len(), values.as_mut_ptr());
         [begun.as_slice(), &stepped, &[read]].concat()
     };
     if statuses.iter().all(|status| *status == OK) {

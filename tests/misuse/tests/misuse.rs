@@ -72,6 +72,23 @@ fn the_same_calls_get_the_same_answers() {
     assert_ne!(fingerprints(&others), fingerprints(&once), "the fingerprint depends on the calls");
 }
 
+/// Whatever the host has set its processor to: how it rounds, what becomes of tiny numbers, which exceptions it traps.
+/// The program checks that every call, and every message, leaves that as it was, and that no flag is raised.
+#[test]
+fn answers_do_not_depend_on_the_hosts_floating_point_environment() {
+    let play = |environment, what: [&str; 2]| {
+        play(Structure::DEFAULT, &["--environment", environment, "--seed", "4", what[0], what[1]])
+    };
+    let sequences = ["--sequences", if full() { "20000" } else { "1000" }];
+    let usual = play("usual", sequences);
+    for environment in ["up", "down", "zero", "flush", "trap", "hostile"] {
+        assert_eq!(fingerprints(&play(environment, sequences)), fingerprints(&usual), "{environment}");
+        play(environment, ["--instances", "20"]);
+    }
+    play("hostile", ["--forgeries", "50"]);
+    play("hostile", ["--starts", "50"]);
+}
+
 /// What a unit reads is refused or does no harm: states with any content behind a checksum that is right, start files
 /// with any values behind a GUID that is right.
 #[test]

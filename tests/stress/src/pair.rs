@@ -29,7 +29,7 @@ pub struct Instance<'a> {
 impl Drop for Instance<'_> {
     fn drop(&mut self) {
         // SAFETY: not used again.
-        unsafe { (self.functions.free_instance)(self.component) }
+        unsafe { self.functions.free_instance(self.component) }
     }
 }
 
@@ -46,7 +46,7 @@ impl<'a> Instance<'a> {
         let (functions, callbacks) = (&unit.functions, host::callbacks());
         let (name, resources) = (c"stress".as_ptr(), c"file:///nowhere".as_ptr());
         let component = environment
-            .of(|| unsafe { (functions.instantiate)(name, 1, guid.as_ptr(), resources, &raw const callbacks, 0, 0) });
+            .of(|| unsafe { functions.instantiate(name, 1, guid.as_ptr(), resources, &raw const callbacks, 0, 0) });
         if component.is_null() {
             return Err(format!("{}, {structure}: no instance: {}", unit.name, host::said()));
         }
@@ -87,7 +87,7 @@ impl<'a> Instance<'a> {
 
     fn set(&self, references: &[u32], values: &[f64]) -> Result<(), String> {
         let status = self.environment.of(|| unsafe {
-            (self.functions.set_real)(self.component, references.as_ptr(), references.len(), values.as_ptr())
+            self.functions.set_real(self.component, references.as_ptr(), references.len(), values.as_ptr())
         });
         self.must("fmi2SetReal", status)
     }
@@ -102,13 +102,13 @@ impl<'a> Instance<'a> {
         let Self { functions, component, outputs, values, .. } = self;
         let status = self
             .environment
-            .of(|| unsafe { (functions.get_real)(*component, outputs.as_ptr(), outputs.len(), values.as_mut_ptr()) });
+            .of(|| unsafe { functions.get_real(*component, outputs.as_ptr(), outputs.len(), values.as_mut_ptr()) });
         self.must("fmi2GetReal", status)
     }
 
     /// Makes it as new.
     pub fn reset(&self) -> Result<(), String> {
-        self.must("fmi2Reset", unsafe { (self.functions.reset)(self.component) })
+        self.must("fmi2Reset", unsafe { self.functions.reset(self.component) })
     }
 
     /// From parameters to the first communication point.
@@ -116,9 +116,9 @@ impl<'a> Instance<'a> {
         let (functions, component) = (self.functions, self.component);
         let [set_up, entered, left] = self.environment.of(|| unsafe {
             [
-                (functions.setup_experiment)(component, 0, 0.0, start, 0, 0.0),
-                (functions.enter_initialization)(component),
-                (functions.exit_initialization)(component),
+                functions.setup_experiment(component, 0, 0.0, start, 0, 0.0),
+                functions.enter_initialization(component),
+                functions.exit_initialization(component),
             ]
         });
         self.must("fmi2SetupExperiment", set_up)?;
@@ -129,14 +129,14 @@ impl<'a> Instance<'a> {
 
     /// One communication step.
     pub fn step(&mut self, from: f64, size: f64) -> Result<(), String> {
-        let status = self.environment.of(|| unsafe { (self.functions.do_step)(self.component, from, size, 1) });
+        let status = self.environment.of(|| unsafe { self.functions.do_step(self.component, from, size, 1) });
         self.must("fmi2DoStep", status)
     }
 
     /// Its state.
     pub fn save(&self) -> Result<State, String> {
         let mut state = ptr::null_mut();
-        let status = self.environment.of(|| unsafe { (self.functions.get_state)(self.component, &raw mut state) });
+        let status = self.environment.of(|| unsafe { self.functions.get_state(self.component, &raw mut state) });
         self.must("fmi2GetFMUstate", status)?;
         Ok(state)
     }
@@ -145,15 +145,15 @@ impl<'a> Instance<'a> {
     pub fn through_bytes(&self, mut state: State) -> Result<State, String> {
         let (functions, component) = (self.functions, self.component);
         let mut size = 0;
-        let status = self.environment.of(|| unsafe { (functions.state_size)(component, state, &raw mut size) });
+        let status = self.environment.of(|| unsafe { functions.state_size(component, state, &raw mut size) });
         self.must("fmi2SerializedFMUstateSize", status)?;
         let mut bytes = vec![0; size];
         let mut copy = ptr::null_mut();
         let [written, freed, read] = self.environment.of(|| unsafe {
             [
-                (functions.serialize_state)(component, state, bytes.as_mut_ptr(), size),
-                (functions.free_state)(component, &raw mut state),
-                (functions.deserialize_state)(component, bytes.as_ptr(), size, &raw mut copy),
+                functions.serialize_state(component, state, bytes.as_mut_ptr(), size),
+                functions.free_state(component, &raw mut state),
+                functions.deserialize_state(component, bytes.as_ptr(), size, &raw mut copy),
             ]
         });
         self.must("fmi2SerializeFMUstate", written)?;
@@ -165,10 +165,7 @@ impl<'a> Instance<'a> {
     /// Goes back to a state, and gives that up.
     pub fn restore(&self, mut state: State) -> Result<(), String> {
         let [set, freed] = self.environment.of(|| unsafe {
-            [
-                (self.functions.set_state)(self.component, state),
-                (self.functions.free_state)(self.component, &raw mut state),
-            ]
+            [self.functions.set_state(self.component, state), self.functions.free_state(self.component, &raw mut state)]
         });
         self.must("fmi2SetFMUstate", set)?;
         self.must("fmi2FreeFMUstate", freed)

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use super::*;
 use crate::fmi2::c_types::FmuState;
+use crate::fmi2::hash::fnv1a;
 
 fn get(toy: &host::Component, state: &mut FmuState) -> c_int {
     // SAFETY: the handle is good, and the state has a place.
@@ -155,7 +156,7 @@ fn states_of_other_structures_and_units_are_refused() {
     assert!(host.last().text.ends_with(expected), "{}", host.last().text);
     let (status, none) = deserialize(&toy, &serialized(&large, state));
     assert_eq!((status, none), (ERROR, null_mut()));
-    assert!(host.last().text.contains("serializedState must begin with"), "{}", host.last().text);
+    assert!(host.last().text.contains("serializedState is a state of large toy"), "{}", host.last().text);
 
     let mut strange = crate::fmi2::states::keep(7_i32, 0);
     assert_eq!(set(&toy, strange), ERROR);
@@ -192,11 +193,53 @@ fn bytes_need_room_and_may_have_more() {
         assert_eq!(fmi2DeSerializeFMUstate(toy.handle, bytes.as_ptr(), usize::MAX, &mut null_mut()), ERROR);
         assert_eq!(fmi2DeSerializeFMUstate(toy.handle, bytes.as_ptr(), size, null_mut()), ERROR);
 
-        bytes.resize(size + 9, 0x55);
-        assert_eq!(fmi2SerializeFMUstate(toy.handle, state, bytes.as_mut_ptr(), size + 9), OK);
+        for more in [1, 9, 1 << 16, 1 << 24] {
+            bytes.clear();
+            bytes.resize(size + more, 0x55);
+            assert_eq!(fmi2SerializeFMUstate(toy.handle, state, bytes.as_mut_ptr(), bytes.len()), OK, "{more}");
+            assert!(bytes[size..].iter().all(|byte| *byte == 0));
+            assert_eq!(deserialize(&toy, &bytes).0, OK, "{more}");
+        }
     }
-    assert_eq!(bytes[size..], [0; 9]);
-    assert_eq!(deserialize(&toy, &bytes).0, OK);
+    *bytes.last_mut().unwrap() = 1;
+    assert_eq!(deserialize(&toy, &bytes).0, ERROR);
+}
+
+/// Bytes whose title is `edit` of the right one, otherwise undamaged: how they are refused.
+fn refused(toy: &host::Component, host: &Host, edit: impl Fn(&str) -> String) -> String {
+    let bytes: Vec<u8> = serialized(toy, saved(toy)).into_iter().map(i8::cast_unsigned).collect();
+    let title = bytes.iter().position(|byte| *byte == b'\n').unwrap();
+    let mut edited = edit(str::from_utf8(&bytes[..title]).unwrap()).into_bytes();
+    edited.extend(&bytes[title..bytes.len() - 8]);
+    edited.extend(fnv1a(&edited).to_le_bytes());
+    let edited: Vec<c_char> = edited.into_iter().map(u8::cast_signed).collect();
+    assert_eq!(deserialize(toy, &edited).0, ERROR);
+    host.last().text
+}
+
+/// Bytes with the right checksum that this unit did not write: the message says what they are.
+#[test]
+fn bytes_of_others_are_known_for_what_they_are() {
+    let host = Host::new();
+    let toy = host.running();
+    let title = |text: &str| text.split(", ").map(str::to_owned).collect::<Vec<_>>();
+
+    let said = refused(&toy, &host, |right| format!("{}, format 1, {}", title(right)[0], title(right)[2]));
+    let old = "a state that another version of this unit wrote";
+    assert!(said.contains(old) && said.contains("\"FMI 2.0 state, format 1, toy"), "{said}");
+    let said = refused(&toy, &host, |right| right.replace(&format!(" {} ", env!("CARGO_PKG_VERSION")), " 0.0.7 "));
+    assert!(said.contains(old) && said.contains("toy 0.0.7 {"), "{said}");
+    let unknown = "{01234567-89ab-4cde-8f01-23456789abcd}";
+    let said = refused(&toy, &host, |right| right.replace(host::guid().to_str().unwrap(), unknown));
+    assert!(said.contains(old) && said.contains(unknown), "{said}");
+
+    let large = Identity::<Toy>::of(Size::Large).guid().to_string();
+    let said = refused(&toy, &host, |right| right.replace(host::guid().to_str().unwrap(), &large));
+    assert!(said.contains("a state of large toy, but this is small toy"), "{said}");
+    let said = refused(&toy, &host, |right| right.replace(" toy ", " uam_plant "));
+    assert!(said.contains("a state of the unit uam_plant, but this is toy"), "{said}");
+    let said = refused(&toy, &host, |_| "PNG".to_owned());
+    assert!(said.contains("no state of an FMU of this kind") && said.contains("\"PNG"), "{said}");
 }
 
 #[test]
@@ -213,11 +256,13 @@ fn damaged_bytes_are_refused_wherever_the_damage_is() {
             let mut wrong = bytes.clone();
             wrong[position] ^= (1_u8 << bit).cast_signed();
             assert_eq!(deserialize(&toy, &wrong).0, ERROR, "{position}");
-            reasons.insert(host.last().text.split_whitespace().nth(3).unwrap().to_owned());
+            let said = host.last().text;
+            reasons.insert(said.contains("damaged"));
+            assert!(said.contains("damaged") || said.contains("must begin with"), "{said}");
             host.clear();
         }
     }
-    assert_eq!(reasons, BTreeSet::from(["incomplete".to_owned(), "begin".to_owned()]));
+    assert_eq!(reasons, BTreeSet::from([false, true]));
     assert_eq!(toy.step(0.0, 1.0), OK);
 }
 

@@ -19,7 +19,7 @@ impl Player<'_> {
             let (references, orders) =
                 (pointer(&mut p.rng, p.references.as_ptr()), pointer(&mut p.rng, p.orders.as_ptr()));
             let (values, count) = (pointer(&mut p.rng, p.reals.as_ptr()), length(&mut p.rng, count));
-            unsafe { (p.unit.functions.set_input_derivatives)(c, references, count, orders, values) }
+            unsafe { p.unit.functions.set_input_derivatives(c, references, count, orders, values) }
         })
         .map(drop)
     }
@@ -30,7 +30,7 @@ impl Player<'_> {
             let (references, orders) =
                 (pointer(&mut p.rng, p.references.as_ptr()), pointer(&mut p.rng, p.orders.as_ptr()));
             let (values, count) = (pointer_mut(&mut p.rng, p.reals.as_mut_ptr()), length(&mut p.rng, count));
-            unsafe { (p.unit.functions.get_output_derivatives)(c, references, count, orders, values) }
+            unsafe { p.unit.functions.get_output_derivatives(c, references, count, orders, values) }
         })
         .map(drop)
     }
@@ -40,7 +40,7 @@ impl Player<'_> {
         self.call("fmi2GetDirectionalDerivative", |p, c| {
             let (list, values) = (pointer(&mut p.rng, p.references.as_ptr()), p.reals.as_mut_ptr());
             let (unknowns, knowns) = (length(&mut p.rng, count), length(&mut p.rng, count));
-            unsafe { (p.unit.functions.get_directional_derivative)(c, list, unknowns, list, knowns, values, values) }
+            unsafe { p.unit.functions.get_directional_derivative(c, list, unknowns, list, knowns, values, values) }
         })
         .map(drop)
     }

@@ -25,7 +25,7 @@ impl Player<'_> {
         let before = host::messages();
         // SAFETY: all texts end with a zero.
         self.component =
-            unsafe { (self.unit.functions.instantiate)(name, kind, guid, resources, callbacks, integer(rng), logging) };
+            unsafe { self.unit.functions.instantiate(name, kind, guid, resources, callbacks, integer(rng), logging) };
         self.tally.calls += 1;
         self.told = !silent;
         let acceptable = !name.is_null() && kind == 1 && guid == self.unit.guid.as_ptr();
@@ -47,7 +47,7 @@ impl Player<'_> {
             p.texts[..count].fill_with(|| text(&mut p.rng));
             let (on, count) = (integer(&mut p.rng), length(&mut p.rng, count));
             let list = pointer(&mut p.rng, p.texts.as_ptr());
-            unsafe { (p.unit.functions.set_debug_logging)(c, on, count, list) }
+            unsafe { p.unit.functions.set_debug_logging(c, on, count, list) }
         })
         .map(drop)
     }
@@ -58,7 +58,7 @@ impl Player<'_> {
         let done = self.call(name, |p, c| {
             let (defined, tolerance) = (integer(&mut p.rng), real(&mut p.rng));
             let (has_stop, stop) = (p.rng.i32(0..2), 10.0 * real(&mut p.rng));
-            unsafe { (p.unit.functions.setup_experiment)(c, defined, tolerance, start, has_stop, stop) }
+            unsafe { p.unit.functions.setup_experiment(c, defined, tolerance, start, has_stop, stop) }
         })?;
         if done {
             self.require_stage(name, &[Stage::Instantiated])?;
@@ -69,7 +69,7 @@ impl Player<'_> {
 
     pub fn enter_initialization(&mut self) -> Result<(), String> {
         let name = "fmi2EnterInitializationMode";
-        if self.call(name, |p, c| unsafe { (p.unit.functions.enter_initialization)(c) })? {
+        if self.call(name, |p, c| unsafe { p.unit.functions.enter_initialization(c) })? {
             self.require_stage(name, &[Stage::Instantiated])?;
             self.stage = Stage::Initialization;
         }
@@ -78,7 +78,7 @@ impl Player<'_> {
 
     pub fn exit_initialization(&mut self) -> Result<(), String> {
         let name = "fmi2ExitInitializationMode";
-        if self.call(name, |p, c| unsafe { (p.unit.functions.exit_initialization)(c) })? {
+        if self.call(name, |p, c| unsafe { p.unit.functions.exit_initialization(c) })? {
             self.require_stage(name, &[Stage::Initialization])?;
             (self.stage, self.time) = (Stage::Running, self.start);
             self.look("after initialization")?;
@@ -88,7 +88,7 @@ impl Player<'_> {
 
     pub fn terminate(&mut self) -> Result<(), String> {
         let name = "fmi2Terminate";
-        if self.call(name, |p, c| unsafe { (p.unit.functions.terminate)(c) })? {
+        if self.call(name, |p, c| unsafe { p.unit.functions.terminate(c) })? {
             self.require_stage(name, &[Stage::Running, Stage::Terminated, Stage::Failed])?;
             self.stage = Stage::Terminated;
         }
@@ -96,7 +96,7 @@ impl Player<'_> {
     }
 
     pub fn reset(&mut self) -> Result<(), String> {
-        if self.call("fmi2Reset", |p, c| unsafe { (p.unit.functions.reset)(c) })? {
+        if self.call("fmi2Reset", |p, c| unsafe { p.unit.functions.reset(c) })? {
             (self.stage, self.start, self.time) = (Stage::Instantiated, 0.0, 0.0);
         }
         Ok(())
@@ -108,11 +108,11 @@ impl Player<'_> {
             return Ok(());
         }
         unsafe {
-            let status = (self.unit.functions.reset)(self.component);
+            let status = self.unit.functions.reset(self.component);
             self.require(status == OK, "fmi2Reset: refused at the end")?;
             let found = reference::run(self.unit, self.component)?;
             self.require(found == expected, "after fmi2Reset the instance is not as new")?;
-            (self.unit.functions.free_instance)(self.component);
+            self.unit.functions.free_instance(self.component);
         }
         Ok(())
     }

@@ -30,7 +30,7 @@ impl Player<'_> {
         let given = state;
         let done = self.call("fmi2GetFMUstate", |p, c| {
             let place = pointer_mut(&mut p.rng, &raw mut state);
-            unsafe { (p.unit.functions.get_state)(c, place) }
+            unsafe { p.unit.functions.get_state(c, place) }
         })?;
         if done {
             let saved = Saved { state, stage: self.stage, start: self.start, time: self.time };
@@ -47,7 +47,7 @@ impl Player<'_> {
 
     pub fn set_state(&mut self) -> Result<(), String> {
         let state = self.any_state();
-        if self.call("fmi2SetFMUstate", |p, c| unsafe { (p.unit.functions.set_state)(c, state) })? {
+        if self.call("fmi2SetFMUstate", |p, c| unsafe { p.unit.functions.set_state(c, state) })? {
             let saved = self.states.iter().find(|saved| saved.state == state);
             let &Saved { stage, start, time, .. } = saved.ok_or("fmi2SetFMUstate: fmi2OK for what is no state")?;
             (self.stage, self.start, self.time) = (stage, start, time);
@@ -58,7 +58,7 @@ impl Player<'_> {
     pub fn free_state(&mut self) -> Result<(), String> {
         let given = self.any_state();
         let mut state = given;
-        let done = self.call("fmi2FreeFMUstate", |p, c| unsafe { (p.unit.functions.free_state)(c, &raw mut state) })?;
+        let done = self.call("fmi2FreeFMUstate", |p, c| unsafe { p.unit.functions.free_state(c, &raw mut state) })?;
         if done {
             self.require(state.is_null(), "fmi2FreeFMUstate: the freed state is not null")?;
             self.states.retain(|saved| saved.state != given);
@@ -71,7 +71,7 @@ impl Player<'_> {
         let mut size = 0;
         let done = self.call("fmi2SerializedFMUstateSize", |p, c| {
             let place = pointer_mut(&mut p.rng, &raw mut size);
-            unsafe { (p.unit.functions.state_size)(c, state, place) }
+            unsafe { p.unit.functions.state_size(c, state, place) }
         })?;
         self.require(!done || (1..=BYTES).contains(&size), &format!("fmi2SerializedFMUstateSize: {size}"))
     }
@@ -82,7 +82,7 @@ impl Player<'_> {
         let mut bytes = vec![0_u8; BYTES];
         let done = self.call("fmi2SerializeFMUstate", |p, c| {
             let (place, size) = (pointer_mut(&mut p.rng, bytes.as_mut_ptr()), length(&mut p.rng, size));
-            unsafe { (p.unit.functions.serialize_state)(c, state, place.cast(), size) }
+            unsafe { p.unit.functions.serialize_state(c, state, place.cast(), size) }
         })?;
         if done {
             self.digest.take(&bytes);
@@ -99,12 +99,12 @@ impl Player<'_> {
         let mut state = ptr::null_mut();
         let done = self.call("fmi2DeSerializeFMUstate", |p, c| {
             let size = length(&mut p.rng, bytes.len());
-            unsafe { (p.unit.functions.deserialize_state)(c, bytes.as_ptr().cast(), size, &raw mut state) }
+            unsafe { p.unit.functions.deserialize_state(c, bytes.as_ptr().cast(), size, &raw mut state) }
         })?;
         if done {
             // Nobody knows of which instant these bytes were; the instance does not go there.
             let mut freed = state;
-            let status = unsafe { (self.unit.functions.free_state)(self.component, &raw mut freed) };
+            let status = unsafe { self.unit.functions.free_state(self.component, &raw mut freed) };
             self.require(status == OK, "fmi2FreeFMUstate: a state from bytes cannot be freed")?;
         }
         Ok(())

@@ -28,7 +28,7 @@ impl Player<'_> {
     }
 
     pub fn cancel_step(&mut self) -> Result<(), String> {
-        self.call("fmi2CancelStep", |p, c| unsafe { (p.unit.functions.cancel_step)(c) }).map(drop)
+        self.call("fmi2CancelStep", |p, c| unsafe { p.unit.functions.cancel_step(c) }).map(drop)
     }
 
     pub fn do_step(&mut self, from: f64, size: f64) -> Result<(), String> {
@@ -37,7 +37,7 @@ impl Player<'_> {
         let done = self.call(name, |p, c| {
             ours = c == p.component;
             let never_back = integer(&mut p.rng);
-            unsafe { (p.unit.functions.do_step)(c, from, size, never_back) }
+            unsafe { p.unit.functions.do_step(c, from, size, never_back) }
         })?;
         if done {
             self.require_stage(name, &[Stage::Running])?;
@@ -45,7 +45,7 @@ impl Player<'_> {
                 self.time = from + size;
             }
             let mut end = f64::NAN;
-            let status = unsafe { (self.unit.functions.get_real_status)(self.component, 2, &raw mut end) };
+            let status = unsafe { self.unit.functions.get_real_status(self.component, 2, &raw mut end) };
             self.require(
                 status == OK && end.to_bits() == self.time.to_bits(),
                 &format!("{name}: ends at {end}, not at {} = {from} + {size}", self.time),
@@ -55,7 +55,7 @@ impl Player<'_> {
         if ours && !self.component.is_null() && self.stage == Stage::Running {
             // Either the arguments were refused, or the instance has failed: then this is fmi2Error.
             let mut status = OK;
-            unsafe { (self.unit.functions.get_status)(self.component, 0, &raw mut status) };
+            unsafe { self.unit.functions.get_status(self.component, 0, &raw mut status) };
             if status == ERROR {
                 self.stage = Stage::Failed;
             }
@@ -96,11 +96,11 @@ impl Player<'_> {
             let functions = &p.unit.functions;
             unsafe {
                 match which {
-                    0 => (functions.get_status)(c, kind, number),
-                    1 => (functions.get_real_status)(c, kind, real),
-                    2 => (functions.get_integer_status)(c, kind, number),
-                    3 => (functions.get_boolean_status)(c, kind, number),
-                    _ => (functions.get_string_status)(c, kind, text),
+                    0 => functions.get_status(c, kind, number),
+                    1 => functions.get_real_status(c, kind, real),
+                    2 => functions.get_integer_status(c, kind, number),
+                    3 => functions.get_boolean_status(c, kind, number),
+                    _ => functions.get_string_status(c, kind, text),
                 }
             }
         })

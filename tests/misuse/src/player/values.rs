@@ -25,7 +25,7 @@ impl Player<'_> {
         let done = self.call("fmi2GetReal", |p, c| {
             let (references, count) = (pointer(&mut p.rng, p.references.as_ptr()), length(&mut p.rng, count));
             let values = pointer_mut(&mut p.rng, p.reals.as_mut_ptr());
-            unsafe { (p.unit.functions.get_real)(c, references, count, values) }
+            unsafe { p.unit.functions.get_real(c, references, count, values) }
         })?;
         if done {
             self.reals.iter().for_each(|value| self.digest.take(&value.to_bits().to_le_bytes()));
@@ -38,7 +38,7 @@ impl Player<'_> {
         self.call("fmi2GetInteger", |p, c| {
             let (references, count) = (pointer(&mut p.rng, p.references.as_ptr()), length(&mut p.rng, count));
             let values = pointer_mut(&mut p.rng, p.integers.as_mut_ptr());
-            unsafe { (p.unit.functions.get_integer)(c, references, count, values) }
+            unsafe { p.unit.functions.get_integer(c, references, count, values) }
         })?;
         self.integers.iter().for_each(|value| self.digest.take(&value.to_le_bytes()));
         Ok(())
@@ -49,7 +49,7 @@ impl Player<'_> {
         self.call("fmi2GetBoolean", |p, c| {
             let (references, count) = (pointer(&mut p.rng, p.references.as_ptr()), length(&mut p.rng, count));
             let values = pointer_mut(&mut p.rng, p.integers.as_mut_ptr());
-            unsafe { (p.unit.functions.get_boolean)(c, references, count, values) }
+            unsafe { p.unit.functions.get_boolean(c, references, count, values) }
         })?;
         self.integers.iter().for_each(|value| self.digest.take(&value.to_le_bytes()));
         Ok(())
@@ -64,11 +64,11 @@ impl Player<'_> {
         self.call("fmi2SetReal", |p, c| {
             let (references, values) = (p.references.as_ptr(), p.reals.as_ptr());
             if usual {
-                return unsafe { (p.unit.functions.set_real)(c, references, count, values) };
+                return unsafe { p.unit.functions.set_real(c, references, count, values) };
             }
             let (references, count) = (pointer(&mut p.rng, references), length(&mut p.rng, count));
             let values = pointer(&mut p.rng, values);
-            unsafe { (p.unit.functions.set_real)(c, references, count, values) }
+            unsafe { p.unit.functions.set_real(c, references, count, values) }
         })
         .map(drop)
     }
@@ -79,7 +79,7 @@ impl Player<'_> {
         self.call("fmi2SetInteger", |p, c| {
             let (references, count) = (pointer(&mut p.rng, p.references.as_ptr()), length(&mut p.rng, count));
             let values = pointer(&mut p.rng, p.integers.as_ptr());
-            unsafe { (p.unit.functions.set_integer)(c, references, count, values) }
+            unsafe { p.unit.functions.set_integer(c, references, count, values) }
         })
         .map(drop)
     }
@@ -90,7 +90,7 @@ impl Player<'_> {
         self.call("fmi2SetBoolean", |p, c| {
             let (references, count) = (pointer(&mut p.rng, p.references.as_ptr()), length(&mut p.rng, count));
             let values = pointer(&mut p.rng, p.integers.as_ptr());
-            unsafe { (p.unit.functions.set_boolean)(c, references, count, values) }
+            unsafe { p.unit.functions.set_boolean(c, references, count, values) }
         })
         .map(drop)
     }
@@ -99,7 +99,7 @@ impl Player<'_> {
         let count = self.choose_references(true);
         self.call("fmi2GetString", |p, c| {
             let (references, count) = (pointer(&mut p.rng, p.references.as_ptr()), length(&mut p.rng, count));
-            unsafe { (p.unit.functions.get_string)(c, references, count, p.texts.as_mut_ptr()) }
+            unsafe { p.unit.functions.get_string(c, references, count, p.texts.as_mut_ptr()) }
         })
         .map(drop)
     }
@@ -109,7 +109,7 @@ impl Player<'_> {
         self.texts.fill_with(|| text(&mut self.rng));
         self.call("fmi2SetString", |p, c| {
             let (references, count) = (pointer(&mut p.rng, p.references.as_ptr()), length(&mut p.rng, count));
-            unsafe { (p.unit.functions.set_string)(c, references, count, p.texts.as_ptr()) }
+            unsafe { p.unit.functions.set_string(c, references, count, p.texts.as_ptr()) }
         })
         .map(drop)
     }
