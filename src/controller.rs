@@ -117,11 +117,18 @@ impl Outputs {
     /// # Errors
     /// Names the first quantity that is not, at `time` \[s\].
     pub fn check(&self, time: f64) -> Result<()> {
-        let Self { rate_command, acceleration_command, reference, reference_velocity, predicted_end_effector, .. } =
-            self;
+        let Self {
+            rate_command,
+            acceleration_command,
+            reference,
+            reference_velocity,
+            predicted_end_effector,
+            late_miss,
+            ..
+        } = self;
         let places = reference + reference_velocity + predicted_end_effector;
         let commands: f64 = rate_command.iter().zip(acceleration_command).map(|(rate, slope)| rate + slope).sum();
-        if (places.sum() + commands).is_finite() {
+        if (places.sum() + commands + late_miss).is_finite() {
             return Ok(());
         }
         check_finite(
@@ -131,6 +138,7 @@ impl Outputs {
                 ("reference", reference.as_slice()),
                 ("velocity of the reference", reference_velocity.as_slice()),
                 ("predicted position of the end effector", predicted_end_effector.as_slice()),
+                ("late miss", &[*late_miss]),
             ],
             time,
         )

@@ -11,7 +11,7 @@ mod syntax;
 mod unknown;
 mod writer;
 
-pub use catalogue::{catalogue, find};
+pub use catalogue::{catalogue, find, of_the_thesis};
 pub use error::{Error, Problem};
 pub use writer::Extent;
 

@@ -14,7 +14,7 @@ use uam::Structure;
 use zip::ZipArchive;
 
 /// Largest admissible library \[B\].
-const LARGEST_LIBRARY: usize = 1_000_000;
+const LARGEST_LIBRARY: usize = 3_000_000;
 
 fn build_into(folder: &Path) -> Built {
     let options = BuildOptions::new(Structure::DEFAULT, folder);

@@ -14,10 +14,10 @@ use fmu_build::study::{self, Case, Summary};
 use fmu_build::variation::vary;
 use uam::autopilot::AutopilotMode;
 use uam::parameters::{BaseModel, PathAxes};
-use uam::scenarios::{Scenario, catalogue, find};
+use uam::scenarios::{Scenario, find, of_the_thesis};
 
 /// All simulations of the thesis, run once for all tests.
-static SUMMARIES: LazyLock<Vec<Summary>> = LazyLock::new(|| run(catalogue().unwrap()));
+static SUMMARIES: LazyLock<Vec<Summary>> = LazyLock::new(|| run(of_the_thesis().unwrap()));
 
 fn run(scenarios: Vec<Scenario>) -> Vec<Summary> {
     study::run_all(scenarios, &|structure| Ok(common::pair_of(structure)), &|| {}).unwrap()

@@ -46,6 +46,16 @@ fn read_all() -> Result<Vec<Scenario>, Error> {
     Ok(scenarios)
 }
 
+/// The scenarios of the thesis, in its order.
+///
+/// # Errors
+/// If a file of the catalogue is wrong.
+pub fn of_the_thesis() -> Result<Vec<Scenario>, Error> {
+    let mut scenarios = catalogue()?;
+    scenarios.retain(|scenario| scenario.id != super::PICK_UP);
+    Ok(scenarios)
+}
+
 /// The scenario of this name.
 ///
 /// # Errors

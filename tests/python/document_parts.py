@@ -13,7 +13,7 @@ import hosts
 from conftest import FULL, TARGET, program
 from documents import MISSING, NUMBER, Block, Hosts, MissingError, Part, Quote, Sizes, Times
 
-README, THESIS = "README.md", "docs/thesis.md"
+README, THESIS, DAMPING = "README.md", "docs/thesis.md", "docs/damping.md"
 CLAIMS, WHICH_STEP = "fmu-build/src/claims/thesis.rs", "fmu-build/src/text/which_step.md"
 OUT = TARGET / "documents"
 
@@ -182,6 +182,10 @@ PARTS: list[Part] = [
     Sizes(README, "build --all-platforms", sizes),
     Hosts(README, "tests/python/hosts.py", table_of_hosts),
     Times(README, "fmu-build/benches/peers/run --rounds 5", peers),
+    *(
+        Block(DAMPING, f"vary pick-up {change} --markdown", command("vary", "pick-up", change, "--markdown"))
+        for change in ("ik.moment_damping=0,1,2,3,5,8", "ik.moment_washout=0.1,0.2,0.4,1,4")
+    ),
     Block(THESIS, "reach --markdown", command("reach", "--markdown")),
     Block(
         THESIS,

@@ -4,15 +4,14 @@ use std::time::Instant;
 
 use anyhow::Result;
 use fmu_build::study;
-use uam::scenarios::{PICK_UP, catalogue};
+use uam::scenarios::of_the_thesis;
 
 use super::{Pairs, Progress, complain};
 use crate::cli::PrintArguments;
 use crate::terminal::say;
 
 pub fn execute(arguments: &PrintArguments) -> Result<()> {
-    let mut scenarios = catalogue()?;
-    scenarios.retain(|scenario| scenario.id != PICK_UP);
+    let scenarios = of_the_thesis()?;
     let pairs = Pairs::build(scenarios.iter().map(|scenario| scenario.structure))?;
     let progress = Progress::of(&scenarios, "Simulating")?;
     let begin = Instant::now();

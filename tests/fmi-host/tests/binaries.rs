@@ -11,7 +11,7 @@ use object::read::{Export, NameOrOrdinal, Object, ObjectSymbol};
 use uam::Structure;
 
 /// Largest admissible library \[B\].
-const LARGEST: usize = 1_000_000;
+const LARGEST: usize = 3_000_000;
 
 /// All functions of FMI 2.0, `fmi2Functions.h`. Those of co-simulation must be there, available or not; those
 /// of model exchange need not, but some hosts look all of them up.

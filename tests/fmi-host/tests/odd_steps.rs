@@ -91,3 +91,32 @@ fn a_later_start_changes_nothing() {
     assert!(apart(&early, &late) < 1e-10, "{} apart", apart(&early, &late));
     assert!(late.largest_error() <= 5e-7);
 }
+
+/// Clocks of single precision, counted from 0 and long past the 16 s where one of their units is a microsecond, and of double
+/// precision counted from 1970: steps are taken, and the end effector stays on the reference but for the rounding of the
+/// times, at 0.01 m/s there.
+#[test]
+fn clocks_that_count_coarsely() {
+    let coupling = Coupling::open(Structure::DEFAULT);
+    let single = |n: u32| f64::from((f64::from(n) * 1e-2) as f32);
+    let track = coupling.run(&[], (0..3000).map(|n| (single(n), single(n + 1) - single(n)))).unwrap();
+    assert!(track.largest_error() <= 5e-7, "{:e}", track.largest_error());
+    // A host that sends its step as it is meant, and the time as its clock shows it.
+    let track = coupling.run(&[], (0..3000).map(|n| (single(n), 1e-2))).unwrap();
+    assert!(track.largest_error() <= 5e-7, "{:e}", track.largest_error());
+    let late = |n: u32| 1.7e9 + f64::from(n) * 1e-2;
+    let track = coupling.run(&[], (0..400).map(|n| (late(n), late(n + 1) - late(n)))).unwrap();
+    assert!(track.largest_error() <= 5e-7, "{:e}", track.largest_error());
+}
+
+/// A step that was left out is no rounding.
+#[test]
+fn a_step_that_is_left_out_is_refused() {
+    let coupling = Coupling::open(Structure::DEFAULT);
+    for late in [0.0, 20.0, 3e4] {
+        let begin = |n: u32| late + f64::from(n) * 1e-2;
+        let mut steps: Vec<_> = (0..50).map(|n| (begin(n), 1e-2)).collect();
+        steps.remove(30);
+        assert!(coupling.run(&[], steps).is_err(), "from {late} s");
+    }
+}
