@@ -188,6 +188,12 @@ impl<T: Memory, const N: usize> Memory for [T; N] {
     }
 }
 
+impl<T: Memory> Memory for Box<T> {
+    fn pass(&mut self, tape: &mut Tape<'_>) {
+        self.as_mut().pass(tape);
+    }
+}
+
 impl<T: Memory + Default> Memory for Option<T> {
     fn pass(&mut self, tape: &mut Tape<'_>) {
         tape.name("perhaps");

@@ -6,6 +6,7 @@
 
 use crate::bytes::{Memory, Tape};
 use crate::error::{Error, Result};
+use crate::pass;
 
 /// A plan is on time until this share of a sample time later: jitter of a percent does not make a plan early by a step.
 const ON_TIME: f64 = 0.01;
@@ -98,6 +99,6 @@ impl Clock {
 impl Memory for Clock {
     fn pass(&mut self, tape: &mut Tape<'_>) {
         let Self { sample_time: _, since_plan, horizon, past, expected, longest } = self;
-        [since_plan, horizon, past, expected, longest].into_iter().for_each(|time| time.pass(tape));
+        pass!(tape: since_plan, horizon, past, expected, longest);
     }
 }

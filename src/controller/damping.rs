@@ -19,6 +19,7 @@
 use crate::bytes::{Memory, Tape};
 use crate::error::{Error, Result};
 use crate::parameters::InverseKinematics;
+use crate::pass;
 
 /// Where limits keep the moment from what is wanted, this many times c is added to it.
 const MORE: f64 = 9.0;
@@ -131,7 +132,7 @@ impl Memory for MomentDamping {
     fn pass(&mut self, tape: &mut Tape<'_>) {
         // The settings are parameters, and the factors follow from them.
         let Self { damping: _, washout: _, momentum, slow, more, factors } = self;
-        [momentum, slow, more].into_iter().for_each(|number| number.pass(tape));
+        pass!(tape: momentum, slow, more);
         factors.size = f64::NAN;
     }
 }

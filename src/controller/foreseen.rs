@@ -3,6 +3,7 @@
 use super::Inputs;
 use super::external::External;
 use crate::bytes::{Memory, Tape};
+use crate::pass;
 use crate::planar::Vec2;
 use crate::reference::{Reference, ReferenceInstant, ReferenceKind, Target};
 
@@ -71,7 +72,7 @@ impl Memory for Foreseen {
     fn pass(&mut self, tape: &mut Tape<'_>) {
         // All but what the host gives follows from the parameters.
         let Self { reference: _, origin: _, external, time, target: _ } = self;
-        external.pass(tape);
+        pass!(tape: external);
         *time = f64::NAN;
     }
 }

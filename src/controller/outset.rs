@@ -11,6 +11,7 @@ use crate::bytes::{Memory, Tape};
 use crate::dynamics::{Dynamics, Motion, Node, Situation, State};
 use crate::momentum::Twist;
 use crate::parameters::Hold;
+use crate::pass;
 use crate::planar::{Turn, Vec2};
 use crate::qp::{Place, Places};
 
@@ -103,11 +104,7 @@ impl<const N: usize> Memory for Outset<N> {
         // Without "..": whoever adds a field decides here whether it follows from the parameters.
         let Self { dynamics, resolver: _, hold: _, now, motion, before, places, damping, owed } = self;
         dynamics.pass_gains(tape);
-        now.pass(tape);
-        motion.pass(tape);
-        before.pass(tape);
+        pass!(tape: now, motion, before, damping, owed);
         places.iter_mut().for_each(|place| tape.one_of(place, &Place::ALL));
-        damping.pass(tape);
-        owed.pass(tape);
     }
 }

@@ -18,6 +18,7 @@ use crate::bytes::{Memory, Tape};
 use crate::dynamics::{Dynamics, Load, Motion};
 use crate::error::Result;
 use crate::parameters::{Discretization, Hold, Parameters, Structure};
+use crate::pass;
 use crate::planar::Vec2;
 use crate::qp;
 use crate::reference::Target;
@@ -196,16 +197,8 @@ impl<const N: usize> Memory for Controller<N> {
             untouched,
             planned_at,
         } = self;
-        outset.pass(tape);
-        slope_before.pass(tape);
-        clock.pass(tape);
-        foreseen.pass(tape);
-        aim.pass(tape);
-        planned_miss.pass(tape);
-        lasting_moment.pass(tape);
-        planned_end.pass(tape);
-        untouched.pass(tape);
-        planned_at.pass(tape);
+        pass!(tape: outset, slope_before, clock, foreseen, aim, planned_miss, lasting_moment);
+        pass!(tape: planned_end, untouched, planned_at);
     }
 }
 

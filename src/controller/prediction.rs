@@ -3,6 +3,7 @@
 use crate::bytes::{Memory, Tape};
 use crate::dynamics::{Carried, Dynamics, Situation};
 use crate::error::{Error, Result};
+use crate::pass;
 use crate::planar::Vec2;
 
 /// A predicted instant.
@@ -22,8 +23,7 @@ pub(super) struct Prediction<const N: usize> {
 impl<const N: usize> Memory for Prediction<N> {
     fn pass(&mut self, tape: &mut Tape<'_>) {
         let Self { situation, carried, way: _ } = self;
-        situation.pass(tape);
-        carried.pass(tape);
+        pass!(tape: situation, carried);
     }
 }
 

@@ -42,7 +42,8 @@ impl Scalar for Real {
     #[inline]
     fn read<D>(variable: &Variable<D>, data: &mut D) -> Option<Self> {
         Some(match variable.kind {
-            Kind::Real { at, .. } => *at(data, variable.index),
+            // Which zero comes out of `max` and `min` is left to each processor: hosts see the one without a sign.
+            Kind::Real { at, .. } => *at(data, variable.index) + 0.0,
             Kind::Boolean { at } => f64::from(u8::from(*at(data, variable.index))),
             Kind::Enumeration { at } => f64::from(at(data, variable.index).number()),
         })
