@@ -6,12 +6,10 @@ use std::f64::consts::PI;
 
 use common::assert_close;
 use common::coupling::Coupling;
-use nalgebra::Vector2;
 use uam::autopilot::AutopilotMode;
 use uam::controller::{self, Status};
 use uam::defaults::default_parameters;
 use uam::parameters::{Discretization, Resolution};
-use uam::reference::ReferenceKind;
 use uam::{Parameters, Structure};
 
 const DEFAULT: Structure = Structure::DEFAULT;
@@ -186,31 +184,6 @@ fn beyond_reach_and_back() {
             if discretization == Discretization::Exact {
                 assert!(coupling.error() < 1e-9, "{resolution:?}: {:e}", coupling.error());
             }
-        }
-    }
-}
-
-/// An external reference that goes on as its velocity and acceleration say is followed exactly.
-#[test]
-fn an_external_reference_is_followed() {
-    let mut coupling = Coupling::new(
-        DEFAULT,
-        &with(|p| {
-            p.reference.kind = ReferenceKind::External;
-            p.ik.sample_time = 0.01;
-        }),
-    );
-    let origin = coupling.plant.outputs.end_effector;
-    let (v, a) = (Vector2::new(0.0, 0.0), Vector2::new(0.05, -0.08));
-    for _ in 0..100 {
-        let t = coupling.plant.time + 0.01;
-        coupling.external.position = origin + (v + a * (0.5 * t)) * t;
-        coupling.external.velocity = v + a * t;
-        coupling.external.acceleration = a;
-        coupling.step(0.01);
-        // The first interval is planned before the reference is known.
-        if t > 0.03 {
-            assert!(coupling.error() < 1e-9, "t = {t}: {:e}", coupling.error());
         }
     }
 }

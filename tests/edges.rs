@@ -60,7 +60,7 @@ fn fastest_between(parameters: &Parameters, step: f64, [from, to]: [f64; 2]) -> 
 #[test]
 fn a_reference_at_rest_brings_rest() {
     for dy in [-0.2, -0.165] {
-        for step in [5e-3, 2e-2] {
+        for step in [1e-2, 2e-2] {
             let late = |resolution| fastest_between(&way(resolution, [0.0, dy], 2.0, None), step, [6.0, 6.5]);
             let usual = late(Resolution::MinimumNorm);
             for resolution in EVERY {
@@ -77,12 +77,13 @@ fn back_within_reach_the_path_is_met_again() {
     for resolution in EVERY {
         let mut coupling = Coupling::new(Structure::DEFAULT, &way(resolution, [0.0, -0.2], 1.5, Some(2.0)));
         let mut farthest = 0.0_f64;
-        while coupling.plant.time < 4.5 {
+        // By accelerations the path is met by and by.
+        while coupling.plant.time < if resolution == Resolution::AccelerationLevel { 5.5 } else { 4.5 } {
             coupling.step(5e-3);
             farthest = farthest.max(coupling.error());
         }
         assert!(farthest > 0.02 && coupling.error() < 1e-9, "{resolution:?}: {farthest}, {:e}", coupling.error());
-        assert_eq!(coupling.commands.status, Status::Ok, "{resolution:?}");
+        assert!(coupling.commands.status.keeps_path(), "{resolution:?}");
     }
 }
 
@@ -113,37 +114,49 @@ fn limits_take_from_the_moment_before_they_take_from_the_path() {
     }
 }
 
-/// Peak to peak of the first joint's angle over the last second of a run, without its drift.
-fn swing(parameters: &Parameters, step: f64) -> f64 {
-    let mut coupling = Coupling::new(Structure::DEFAULT, parameters);
-    let (mut least, mut most) = (f64::MAX, f64::MIN);
-    while coupling.plant.time < 4.0 {
+/// How far each joint of the pick-up goes from the grasp at 1.6 s to 3 s, where the reference hardly moves \[rad\].
+fn swings(resolution: Resolution, damping: f64, step: f64) -> [f64; 3] {
+    let mut parameters = default_parameters(Structure::DEFAULT);
+    (parameters.ik.resolution, parameters.ik.moment_damping) = (resolution, damping);
+    if resolution == Resolution::AccelerationLevel {
+        parameters.ik.hold = Hold::FirstOrder;
+    }
+    let mut coupling = Coupling::new(Structure::DEFAULT, &parameters);
+    let mut range = [[f64::MAX, f64::MIN]; 3];
+    while coupling.plant.time < 3.0 {
         coupling.step(step);
-        if coupling.plant.time > 1.2 && coupling.plant.time < 2.0 {
-            (least, most) =
-                (least.min(coupling.plant.outputs.position[0]), most.max(coupling.plant.outputs.position[0]));
+        if coupling.plant.time > 1.6 {
+            for ([least, most], angle) in range.iter_mut().zip(&coupling.plant.outputs.position) {
+                (*least, *most) = (least.min(*angle), most.max(*angle));
+            }
         }
     }
-    most - least
+    range.map(|[least, most]| most - least)
 }
 
-/// The free motion beside the path is damped, and alike for every step: what a hasty reach leaves of it does not depend on the
-/// hold. Without damping it does, by more than a factor of two.
+/// The free motion beside the path is damped, and alike for every step. Without damping, constant rates damp it the more the
+/// longer they are held.
 #[test]
 fn free_motion_is_damped_alike_for_every_step() {
+    let apart = |one: [f64; 3], other: [f64; 3]| {
+        one.iter().zip(other).map(|(one, other)| (one / other - 1.0).abs()).fold(0.0, f64::max)
+    };
     for resolution in [Resolution::ExtendedJacobian, Resolution::LeastSquares, Resolution::AccelerationLevel] {
-        let reach = |damping: f64| {
-            let mut parameters = way(resolution, [0.06, -0.04], 0.8, None);
-            parameters.ik.moment_damping = damping;
-            parameters
-        };
-        let swings = |damping| [2e-3, 1e-2, 2e-2].map(|step| swing(&reach(damping), step));
-        let damped = swings(3.0);
-        for other in &damped[1..] {
-            assert!((other / damped[0] - 1.0).abs() < 0.1, "{resolution:?}: {damped:?}");
+        let fine = swings(resolution, 3.0, 2e-3);
+        for step in [1e-2, 2e-2] {
+            let apart = apart(swings(resolution, 3.0, step), fine);
+            assert!(apart < 0.1, "{resolution:?}, {step} s: {apart}");
         }
-        // Four seconds after it rest has come, on the reference.
-        let mut coupling = Coupling::new(Structure::DEFAULT, &reach(3.0));
+    }
+    let undamped = [2e-3, 2e-2].map(|step| swings(Resolution::ExtendedJacobian, 0.0, step));
+    assert!(apart(undamped[1], undamped[0]) > 0.15, "{undamped:?}");
+}
+
+/// Four seconds after a hasty reach the arm is at rest on the reference.
+#[test]
+fn a_hasty_reach_ends_at_rest() {
+    for resolution in [Resolution::ExtendedJacobian, Resolution::LeastSquares, Resolution::AccelerationLevel] {
+        let mut coupling = Coupling::new(Structure::DEFAULT, &way(resolution, [0.06, -0.04], 0.8, None));
         while coupling.plant.time < 4.8 {
             coupling.step(1e-2);
         }
@@ -187,7 +200,7 @@ fn weights_do_not_matter_where_rates_are_unique() {
                     coupling.step(1e-2);
                     let off = coupling.error();
                     assert!(n == 0 || off < 1e-9, "{links} {resolution:?}, weight {weight} of {joint}: {off:e} m");
-                    assert_eq!(coupling.commands.status, Status::Ok);
+                    assert!(coupling.commands.status.keeps_path());
                 }
             }
         }

@@ -272,7 +272,7 @@ fn the_highest_price_does_not_make_rates_chatter() {
             for _ in 0..3000 {
                 coupling.step(1e-3);
                 let rates = coupling.commands.rate_command;
-                assert_eq!(coupling.commands.status, Status::Ok);
+                assert!(matches!(coupling.commands.status, Status::Ok | Status::Inexact));
                 let changes: [f64; 7] = std::array::from_fn(|i| rates[i] - before[i]);
                 for (change, last) in changes.iter().zip(last) {
                     assert!(change.abs() < 0.1, "{change} at {}", coupling.plant.time);
