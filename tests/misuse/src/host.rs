@@ -2,7 +2,9 @@
 
 use std::cell::RefCell;
 use std::ffi::{CStr, c_char, c_int, c_void};
+use std::path::Path;
 use std::ptr;
+use std::sync::{PoisonError, RwLock};
 
 use crate::environment;
 use crate::functions::Callbacks;
@@ -10,6 +12,33 @@ use crate::functions::Callbacks;
 thread_local! {
     /// Number of messages of this thread so far, and the last one.
     static SAID: RefCell<(u64, Vec<u8>)> = const { RefCell::new((0, Vec::new())) };
+}
+
+/// Folders whose names are by chance: they are not what a message says.
+static FOLDERS: RwLock<Vec<Vec<u8>>> = RwLock::new(Vec::new());
+
+/// From now on, messages that name `folder` count as if it were called FOLDER.
+pub fn forget_name(folder: &Path) {
+    let name = folder.to_string_lossy().into_owned().into_bytes();
+    FOLDERS.write().unwrap_or_else(PoisonError::into_inner).push(name);
+}
+
+/// Adds a text to the last message, without names that are by chance.
+fn add(last: &mut Vec<u8>, mut text: &[u8]) {
+    let folders = FOLDERS.read().unwrap_or_else(PoisonError::into_inner);
+    while let Some((&first, rest)) = text.split_first() {
+        match folders.iter().find_map(|folder| text.strip_prefix(folder.as_slice())) {
+            Some(after) => {
+                last.extend(b"FOLDER");
+                text = after;
+            }
+            None => {
+                last.push(first);
+                text = rest;
+            }
+        }
+    }
+    last.push(b'\n');
 }
 
 /// A variadic logger cannot be written in stable Rust. This one takes the first variable argument as a fixed
@@ -28,8 +57,7 @@ extern "C" fn log(
             last.clear();
             for text in [instance, category, format, text] {
                 // SAFETY: all texts end with a zero.
-                last.extend(unsafe { CStr::from_ptr(text) }.to_bytes());
-                last.push(b'\n');
+                add(last, unsafe { CStr::from_ptr(text) }.to_bytes());
             }
         });
     });

@@ -13,6 +13,7 @@ use uam::interface::plant::PlantUnit;
 use uam::variables::{Causality, Kind, Table};
 
 use crate::functions::Functions;
+use crate::host;
 
 /// What the model description says of a variable.
 pub struct Variable {
@@ -74,6 +75,7 @@ impl Unit {
     /// If it is no FMU for this machine.
     pub fn open(path: &Path) -> Result<Self, Box<dyn Error>> {
         let folder = tempfile::tempdir()?;
+        host::forget_name(folder.path());
         zip::ZipArchive::new(File::open(path)?)?.extract(folder.path())?;
         let text = fs::read_to_string(folder.path().join("modelDescription.xml"))?;
         let description = roxmltree::Document::parse(&text)?;
