@@ -34,7 +34,7 @@ impl<const N: usize> Outset<N> {
         let response = self.response(&ahead.node, ahead.turn, &ahead.state);
         let problem = self.at_end(&response, ahead.turn, velocity, self.moment_task(&response, carried), horizon);
         let resolved = self.solve(&problem, clock, &self.places, Aims::All);
-        let motion = self.accelerating_to(&resolved.rate, horizon);
+        let motion = self.accelerating_to(&resolved.rate, clock);
         self.accelerated(&ahead, &response, &motion, [t, horizon], end);
         Plan {
             velocity_residual: (problem.path * resolved.rate - problem.velocity).norm(),

@@ -33,7 +33,7 @@ impl<const N: usize> Outset<N> {
         let motion = match self.hold {
             Hold::ZeroOrder => Motion::constant(rate),
             // As the thesis handed its rates to the multibody program.
-            Hold::FirstOrder => self.accelerating_to(&rate, horizon),
+            Hold::FirstOrder => self.accelerating_to(&rate, clock),
         };
         Plan {
             velocity_residual: (problem.path * rate - problem.velocity).norm(),

@@ -194,10 +194,10 @@ impl<const N: usize> Outset<N> {
             let solve = |asked: &Problem<N>| self.solve(asked, clock, &plan.places, aims);
             let (resolved, motion) = if accelerates {
                 let resolved = solve(&at_end());
-                (resolved, self.accelerating_to(&resolved.rate, horizon))
+                (resolved, self.accelerating_to(&resolved.rate, clock))
             } else if self.hold == Hold::FirstOrder
                 && let resolved = solve(&at_end())
-                && let Some(ramp) = self.ramp(&mean, &resolved, horizon)
+                && let Some(ramp) = self.ramp(&mean, &resolved, clock)
             {
                 (resolved, ramp)
             } else {
@@ -286,12 +286,15 @@ impl<const N: usize> Outset<N> {
     ///
     /// Where it has a choice it begins at the rates with which the interval before ended; in the direction of
     /// the path it cannot, for a ramp from given rates to a given place would ring for ever.
-    fn ramp(&self, problem: &Problem<N>, last: &Resolved<N>, horizon: f64) -> Option<Motion<N>> {
+    fn ramp(&self, problem: &Problem<N>, last: &Resolved<N>, clock: &Clock) -> Option<Motion<N>> {
         let smooth = (self.motion.rate + last.rate) * 0.5;
         let mean = self.resolver.nearest(problem, &smooth);
         let first = mean.rate * 2.0 - last.rate;
-        let possible = last.status.keeps_path() && !mean.path_damped && self.resolver.admits(&first);
-        possible.then(|| Motion { rate: first, slope: (last.rate - first) / horizon })
+        let ramp = Motion { rate: first, slope: (last.rate - first) / clock.horizon };
+        // The host may go on with it for longer than it was made for.
+        let farthest = ramp.rate_after(clock.longest_hold());
+        let within = self.resolver.admits(&first) && self.resolver.admits(&farthest);
+        (last.status.keeps_path() && !mean.path_damped && within).then_some(ramp)
     }
 }
 

@@ -71,10 +71,16 @@ impl<const N: usize> Outset<N> {
         self.resolver.must_brake(position.as_slice(), self.motion.rate.as_slice(), clock.longest_hold())
     }
 
-    /// From the present rates to the rates `last`, linearly.
-    pub fn accelerating_to(&self, last: &SVector<f64, N>, horizon: f64) -> Motion<N> {
+    /// From the present rates to the rates `last` in the interval of the `clock`, linearly; less far where they would exceed
+    /// their limits if that went on for as long as is possible.
+    pub fn accelerating_to(&self, last: &SVector<f64, N>, clock: &Clock) -> Motion<N> {
         let first = self.resolver.within_limits(self.motion.rate);
-        Motion { rate: first, slope: (last - first) / horizon }
+        let (mut motion, hold) = (Motion { rate: first, slope: (last - first) / clock.horizon }, clock.longest_hold());
+        let farthest = motion.rate_after(hold);
+        if !self.resolver.admits(&farthest) {
+            motion.slope = (self.resolver.clamped(farthest) - first) / hold;
+        }
+        motion
     }
 
     /// Velocity of the end effector in the `situation`, where the base moves with `base` (axes of the UAV frame);

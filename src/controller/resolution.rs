@@ -230,6 +230,14 @@ impl Resolver {
         self.excess(rate) <= 1.0
     }
 
+    /// Rates each of which is at its limit where it would exceed it.
+    pub fn clamped<const N: usize>(&self, mut rate: SVector<f64, N>) -> SVector<f64, N> {
+        for (rate, limits) in rate.iter_mut().zip(&self.limits).take(self.links) {
+            *rate = rate.clamp(-limits.rate, limits.rate);
+        }
+        rate
+    }
+
     /// Rates scaled down so that none exceeds its limit.
     pub fn within_limits<const N: usize>(&self, rate: SVector<f64, N>) -> SVector<f64, N> {
         rate / self.excess(&rate)

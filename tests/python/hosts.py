@@ -19,11 +19,11 @@ from pathlib import Path
 
 import numpy as np
 
-from conftest import CARGO, FULL, ROOT, TARGET, read_table, simulate
+from conftest import CARGO, FULL, ROOT, TARGET, program, read_table, simulate
 
 MASTERS = Path(__file__).parent / "masters"
 ENVIRONMENTS = TARGET / "hosts"
-SCENARIO, STEP, STOP = "4.3b", 1e-3, 30.0
+SCENARIO, STEP, STOP = "pick-up", 1e-3, 30.0
 
 HEAD = "| master | version | agrees |\n|---|---|---|"
 
@@ -194,6 +194,7 @@ def agreement(native: Table, host: Table) -> Agreement:
 def native() -> tuple[Path, Table]:
     """The native master's numbers, and the folder with the files that it used."""
     folder = ENVIRONMENTS / "files"
+    program("build", "--out", str(folder))
     return folder, simulate(SCENARIO, folder, step=STEP, stop=STOP)
 
 
