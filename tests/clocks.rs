@@ -13,6 +13,9 @@ use uam::{Parameters, Structure};
 /// Lengths of steps one after the other.
 type Steps = Box<dyn FnMut(usize) -> f64>;
 
+/// A name, its steps, the even step that it is compared with \[s\], and how near the path it keeps \[m\].
+type Uneven = (&'static str, fn() -> Steps, f64, f64);
+
 /// What a run shows: largest error of the end effector from the second step on \[m\], largest roll \[rad\] and rate \[rad/s\].
 #[derive(Debug)]
 struct Seen {
@@ -94,7 +97,7 @@ fn rounding_and_jitter_of_steps_change_nothing_that_counts() {
 /// and the UAV rolls by at most 0.03 degrees more than with even steps.
 #[test]
 fn uneven_steps_are_followed() {
-    let clocks: [(&str, fn() -> Steps, f64, f64); 5] = [
+    let clocks: [Uneven; 5] = [
         ("1 and 2 ms", || Box::new(|n| [1e-3, 2e-3][n % 2]), 2e-3, 1e-6),
         ("0.5 to 1.5 ms", || random(|random| random.between(5e-4, 1.5e-3)), 1e-3, 1e-6),
         ("10 and 20 ms", || Box::new(|n| [1e-2, 2e-2][n % 2]), 2e-2, 1e-4),

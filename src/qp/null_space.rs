@@ -58,7 +58,10 @@ impl NullSpace {
         self.weights = levels.weights;
         self.factor = [[0.0; MAX_ROWS]; MAX_ROWS];
         self.size = rows.coefficients.iter().take(count).map(largest).fold(0.0, f64::max);
-        let negligible = levels.blur.map(|blur| (DEPENDENT * blur * self.size).powi(2));
+        let negligible = levels.blur.map(|blur| {
+            let size = DEPENDENT * blur * self.size;
+            size * size
+        });
         while self.rank < count && self.eliminate(&mut left[..count], &negligible) {}
     }
 

@@ -183,7 +183,11 @@ PARTS: list[Part] = [
     Hosts(README, "tests/python/hosts.py", table_of_hosts),
     Times(README, "fmu-build/benches/peers/run --rounds 5", peers),
     *(
-        Block(DAMPING, f"vary pick-up {change} --markdown", command("vary", "pick-up", change, "--markdown"))
+        Block(
+            DAMPING,
+            f"vary pick-up {change} --markdown",
+            command("vary", "pick-up", change, "--markdown"),
+        )
         for change in ("ik.moment_damping=0,1,2,3,5,8", "ik.moment_washout=0.1,0.2,0.4,1,4")
     ),
     Block(THESIS, "reach --markdown", command("reach", "--markdown")),

@@ -77,7 +77,7 @@ def test_plant_alone_with_inputs(pair: Pair) -> None:
 
 
 @pytest.mark.parametrize("step", [1e-3, 1e-2])
-@pytest.mark.parametrize(("scenario", "resolution"), [("4.3a", 1), ("4.3b", 3)])
+@pytest.mark.parametrize(("scenario", "resolution"), [("4.3a", 1), ("pick-up", 3)])
 def test_coupled_as_in_the_native_program(
     pair: Pair, tmp_path: Path, scenario: str, resolution: int, step: float
 ) -> None:
