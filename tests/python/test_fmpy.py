@@ -135,7 +135,7 @@ def test_example_as_printed_in_the_readme(pair: Pair) -> None:
         check=True,
     )
     assert "minimum norm: UAV up to 109.8 mm to the right" in run.stdout, run.stdout
-    assert "extended Jacobian: UAV up to 7.4 mm to the right" in run.stdout, run.stdout
+    assert "extended Jacobian: UAV up to 5.5 mm to the right" in run.stdout, run.stdout
     assert picture.read_bytes().startswith(b"\x89PNG")
 
 

@@ -56,13 +56,13 @@ def check_folder(folder: Path) -> int:
 
 @pytest.mark.parametrize("structure", SOME, ids=str)
 def test_units_and_system_of_a_structure(structure: Structure) -> None:
-    """Twice in the FMUs, which stand in the SSP, too, beside its own two documents."""
-    assert check_folder(build(structure).plant.parent) == 2 * 4 + 2
+    """Two in each FMU, which stands in the SSP, too, beside its own two documents."""
+    assert check_folder(build(structure, "--terminals").plant.parent) == 2 * 4 + 2
 
 
 @pytest.mark.parametrize("arguments", OWN, ids=" ".join)
 def test_units_and_system_of_an_own_vehicle(tmp_path: Path, arguments: tuple[str, ...]) -> None:
-    program("build", "--scenario", *arguments, "--out", str(tmp_path))
+    program("build", "--terminals", "--scenario", *arguments, "--out", str(tmp_path))
     assert check_folder(tmp_path) == 2 * 4 + 2
 
 
@@ -83,5 +83,5 @@ def test_scenarios_of_ones_own(tmp_path: Path, mine: str) -> None:
     program("export", str(file), "--out", str(tmp_path))
     assert check_folder(tmp_path) == 2
     if FULL:
-        program("build", "--scenario", str(file), "--out", str(tmp_path))
+        program("build", "--terminals", "--scenario", str(file), "--out", str(tmp_path))
         assert check_folder(tmp_path) == 2 + 2 * 4 + 2
