@@ -2,8 +2,9 @@
 
 use std::fmt;
 
+use uam::autopilot::AutopilotMode;
 use uam::options::Choice;
-use uam::parameters::{Balance, Discretization, Resolution};
+use uam::parameters::{Actuation, Balance, Discretization, Resolution};
 use uam::planar::{Turn, Vec2};
 use uam::scenarios::{Extent, Scenario};
 use uam::variables::{Kind, Variability};
@@ -115,6 +116,18 @@ impl Case {
             again,
             compared,
         }
+    }
+
+    /// The same case with what the controller promises nothing about: every fifth has a joint driven by a torque that
+    /// nobody gives, every seventh an autopilot outside that is not there.
+    pub fn varied(mut self) -> Self {
+        if self.number.is_multiple_of(5) {
+            self.others.push(("joint[1].actuation", f64::from(Actuation::Torque.number())));
+        }
+        if self.number.is_multiple_of(7) {
+            self.others.push(("autopilot.mode", f64::from(AutopilotMode::External.number())));
+        }
+        self
     }
 
     /// Where the end effector is at the start \[m\].

@@ -68,6 +68,9 @@ struct Options {
     /// With --only: print every communication point.
     #[arg(long, requires = "only")]
     trace: bool,
+    /// Print a digest of all values of each coupling, bit by bit, and check nothing.
+    #[arg(long, conflicts_with_all = ["environments", "trace"])]
+    digests: bool,
     /// Play all again in each rounding mode that a host can set; the fingerprints must be equal.
     #[arg(long)]
     environments: bool,
@@ -98,6 +101,14 @@ fn run(options: &Options) -> Result<bool, String> {
     }
     let units = units(options.folder.as_deref())?;
     watch::begin();
+    if options.digests {
+        let mut player = Player::new(&units, Environment::Usual, false);
+        for number in numbers {
+            let case = Case::draw(options.seed, number).varied();
+            println!("{number} {} {case}", player.digest(&case)?);
+        }
+        return Ok(true);
+    }
     let environments = if options.environments { Environment::ALL } else { &[Environment::Usual] };
     let mut fingerprints = Vec::new();
     let mut clean = true;
