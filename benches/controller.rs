@@ -5,7 +5,7 @@
 #![allow(clippy::unwrap_used, reason = "a benchmark that cannot start has nothing to say")]
 
 use divan::Bencher;
-use uam::defaults::default_parameters;
+use uam::parameters::defaults::default_parameters;
 use uam::parameters::{Discretization, Hold, Resolution};
 use uam::{Parameters, Structure};
 

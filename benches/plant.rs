@@ -8,8 +8,8 @@ use std::cell::RefCell;
 
 use divan::Bencher;
 use nalgebra::SVector;
-use uam::defaults::default_parameters;
-use uam::dynamics::Dynamics;
+use uam::mechanics::dynamics::Dynamics;
+use uam::parameters::defaults::default_parameters;
 use uam::parameters::{Actuation, Balance, BaseModel};
 use uam::{Parameters, Structure};
 

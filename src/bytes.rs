@@ -9,7 +9,7 @@ use std::fmt::{Debug, Write};
 use nalgebra::SMatrix;
 
 use crate::error::{Error, Result};
-use crate::options::Choice;
+use crate::variables::options::Choice;
 
 /// Something that changes in the course of a run.
 pub trait Memory {

@@ -1,14 +1,23 @@
 //! Simulation and control of aerial manipulators as FMI 2.0 co-simulation units.
 //!
-//! A multicopter in hover carries an arm in a vertical plane. [`controller`](interface::controller)
+//! A multicopter in hover carries an arm in a vertical plane. [`controller`](units::controller)
 //! plans joint rates by inverse kinematics that predicts how the base reacts; the
-//! [`plant`](interface::plant) is the multibody system itself.
+//! [`plant`](units::plant) is the multibody system itself.
 //!
 //! Modules know only what stands above them in this list:
-//! [`options`], [`bytes`], [`unit`], [`variables`] (named data), [`qp`], [`planar`], [`reference`], [`autopilot`],
-//! [`parameters`], [`defaults`], [`vehicle`], [`kinematics`], [`momentum`], [`dynamics`], then [`plant`] and
-//! [`controller`], and at the end [`fmi2`] and [`interface`], which make units of them. Named runs (`scenarios`) stand
-//! beside the units.
+//!
+//! ```text
+//! bytes        what a snapshot of a simulation holds
+//! variables    named data: options, units of measure, tables
+//! reference    wanted motions
+//! autopilot    hover control
+//! parameters   all that a user sets, with start values
+//! mechanics    vehicle, kinematics, momentum, laws of motion
+//! plant        the multibody system        control      the inverse kinematics, with its quadratic program
+//! fmi          co-simulation units of any model, by version of the standard
+//! units        plant and controller as such units: their variables
+//! scenarios    named runs, and the files that hold them
+//! ```
 //!
 //! Results are the same bits on every platform: no mathematics of the platform is used but square roots, which are exact.
 
@@ -16,26 +25,17 @@
 
 pub mod autopilot;
 pub mod bytes;
-pub mod controller;
-mod culprit;
-pub mod defaults;
-pub mod dynamics;
+pub mod control;
 pub mod error;
-pub mod fmi2;
-pub mod interface;
-pub mod kinematics;
-pub mod momentum;
-pub mod options;
+pub mod fmi;
+pub mod mechanics;
 pub mod parameters;
-pub mod planar;
 pub mod plant;
-pub mod qp;
 pub mod reference;
 #[cfg(feature = "scenarios")]
 pub mod scenarios;
-pub mod unit;
+pub mod units;
 pub mod variables;
-pub mod vehicle;
 
 pub use error::{Error, Result};
 pub use parameters::{Parameters, Structure};

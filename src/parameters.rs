@@ -9,6 +9,8 @@ use crate::options;
 use crate::reference::Reference;
 use crate::variables::{Kind, Table};
 
+pub(crate) mod culprit;
+pub mod defaults;
 mod table;
 
 pub use table::{declare_controller, declare_plant, declare_shared};

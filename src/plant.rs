@@ -10,11 +10,11 @@ pub use simulation::Plant;
 pub use slopes::Slopes;
 
 use crate::bytes::Memory;
-use crate::dynamics::Load;
 use crate::error::{Error, Result};
 use crate::for_coordinates;
+use crate::mechanics::dynamics::Load;
+use crate::mechanics::planar::Vec2;
 use crate::parameters::{MAX_COORDINATES, Parameters, Structure};
-use crate::planar::Vec2;
 
 /// What comes from outside at a communication point. Joints stand first, what
 /// balances the arm after the last joint of the structure.

@@ -1,9 +1,9 @@
 //! The wanted motion of the end effector, relative to where it starts.
 
 use crate::error::{Error, Result};
+use crate::mechanics::planar::{Turn, Vec2, vec2};
 use crate::memory;
 use crate::options;
-use crate::planar::{Turn, Vec2, vec2};
 
 /// Number of legs that a path can have.
 pub const LEGS: usize = 4;

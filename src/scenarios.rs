@@ -15,7 +15,7 @@ pub use catalogue::{catalogue, find, of_the_thesis};
 pub use error::{Error, Problem};
 pub use writer::Extent;
 
-pub use crate::defaults::{PICK_UP_DURATION, THESIS_STEP, default_parameters};
+pub use crate::parameters::defaults::{PICK_UP_DURATION, THESIS_STEP, default_parameters};
 
 /// Name of the scenario that the start values of the units are.
 pub const PICK_UP: &str = "pick-up";

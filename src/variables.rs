@@ -4,8 +4,11 @@
 //! them. Model descriptions, getters and setters, connections, reference documentation and parameter
 //! files all derive from it, so that no name, unit or bound is written twice.
 
-use crate::options::Choice;
-use crate::unit::Unit;
+pub mod options;
+pub mod unit;
+
+use crate::variables::options::Choice;
+use crate::variables::unit::Unit;
 
 /// The part a variable plays for whoever connects the unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -9,7 +9,7 @@ use common::coupling::Coupling;
 use common::random::Random;
 use proptest::prelude::*;
 use uam::autopilot::AutopilotMode;
-use uam::controller::Status;
+use uam::control::Status;
 use uam::parameters::{Balance, BaseModel, Discretization, Hold, MomentModel, PathAxes, Resolution};
 use uam::reference::{Leg, Profile};
 use uam::scenarios::{self, Scenario};
@@ -121,10 +121,7 @@ fn what_does_not_go_together_is_refused_by_name() {
     let refusal = |change: fn(&mut Structure, &mut Parameters)| {
         let Scenario { mut structure, mut parameters, .. } = scenarios::find("3.4-1").unwrap();
         change(&mut structure, &mut parameters);
-        uam::controller::new(structure, &parameters, &mut uam::controller::Outputs::default())
-            .err()
-            .unwrap()
-            .to_string()
+        uam::control::new(structure, &parameters, &mut uam::control::Outputs::default()).err().unwrap().to_string()
     };
     let hold = refusal(|_, p| p.ik.hold = Hold::ZeroOrder);
     assert!(hold.contains("ik.hold") && hold.contains("first_order"), "{hold}");

@@ -11,8 +11,8 @@ use common::{assert_close, cases, simpson};
 use nalgebra::{Vector2, Vector3};
 use proptest::prelude::*;
 use uam::autopilot::AutopilotMode;
-use uam::defaults::default_parameters;
 use uam::parameters::Balance;
+use uam::parameters::defaults::default_parameters;
 use uam::{Parameters, Structure};
 
 /// One link that hangs straight down: it moves vertically like a point of M = 4.2 kg + 1 kg.

@@ -9,7 +9,7 @@ use common::coupling::Coupling;
 use common::model::{Coordinates, Model, angular_momentum, momentum};
 use common::run::Run;
 use nalgebra::{DMatrix, Matrix2, Vector2, Vector3};
-use uam::controller;
+use uam::control;
 use uam::parameters::{Balance, BaseModel, Discretization, Resolution};
 use uam::scenarios::{default_parameters, find};
 use uam::{Parameters, Structure};
@@ -123,11 +123,11 @@ fn every_model_follows_the_path_in_its_own_prediction() {
                     parameters.ik.resolution = Resolution::MinimumNorm;
                     parameters.ik.discretization = discretization;
                     parameters.ik.base_model = model;
-                    let mut outputs = controller::Outputs::default();
-                    let mut planner = controller::new(links(number), &parameters, &mut outputs).unwrap();
+                    let mut outputs = control::Outputs::default();
+                    let mut planner = control::new(links(number), &parameters, &mut outputs).unwrap();
                     for k in 0..15 {
                         let t = 0.01 * f64::from(k);
-                        planner.step(&controller::Inputs::default(), t, 0.01, &mut outputs).unwrap();
+                        planner.step(&control::Inputs::default(), t, 0.01, &mut outputs).unwrap();
                     }
                     let error = (outputs.predicted_end_effector - outputs.reference).norm();
                     // A single link cannot follow a path in the plane.
@@ -144,12 +144,12 @@ fn every_model_follows_the_path_in_its_own_prediction() {
 fn the_altitude_of_vertical_thrust_is_that_of_a_rigid_body() {
     let mut scenario = find("2.3b").unwrap();
     scenario.parameters.payload.grasp_time = -1.0;
-    let mut outputs = controller::Outputs::default();
+    let mut outputs = control::Outputs::default();
     let parameters = &scenario.parameters;
-    let mut planner = controller::new(scenario.structure, parameters, &mut outputs).unwrap();
+    let mut planner = control::new(scenario.structure, parameters, &mut outputs).unwrap();
     for k in 0..20 {
         let t = 0.01 * f64::from(k);
-        planner.step(&controller::Inputs::default(), t, 0.01, &mut outputs).unwrap();
+        planner.step(&control::Inputs::default(), t, 0.01, &mut outputs).unwrap();
     }
     let (mass, size, load) = (7.1, 1e-6, -0.9 * 9.81);
     let (mut y, mut v, mut integral) = (0.0, 0.0, 0.0);
@@ -183,8 +183,8 @@ fn interpolated_rates_err_by_a_micrometre_per_second() {
     let scenario = find("2.1a").unwrap();
     let mut parameters = scenario.parameters;
     parameters.ik.discretization = Discretization::Euler;
-    let mut commands = controller::Outputs::default();
-    let mut planner = controller::new(scenario.structure, &parameters, &mut commands).unwrap();
+    let mut commands = control::Outputs::default();
+    let mut planner = control::new(scenario.structure, &parameters, &mut commands).unwrap();
     let mut plant = Run::new(scenario.structure, parameters.clone());
     let (size, mut before) = (scenario.step, [0.0; 7]);
     let (mut velocity_error, mut position_error) = (0.0_f64, 0.0_f64);
@@ -193,7 +193,7 @@ fn interpolated_rates_err_by_a_micrometre_per_second() {
         plant.inputs.rate_command = before;
         plant.inputs.acceleration_command = std::array::from_fn(|i| (now[i] - before[i]) / size);
         plant.step(size);
-        planner.step(&controller::Inputs::default(), t, size, &mut commands).unwrap();
+        planner.step(&control::Inputs::default(), t, size, &mut commands).unwrap();
         before = now;
         velocity_error = velocity_error.max((plant.outputs.end_effector_velocity - commands.reference_velocity).norm());
         position_error = position_error.max((plant.outputs.end_effector - commands.reference).norm());

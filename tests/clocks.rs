@@ -6,7 +6,7 @@ mod common;
 
 use common::coupling::Coupling;
 use common::random::Random;
-use uam::defaults::default_parameters;
+use uam::parameters::defaults::default_parameters;
 use uam::parameters::{Hold, Resolution};
 use uam::{Parameters, Structure};
 

@@ -7,8 +7,8 @@ use std::f64::consts::PI;
 use common::assert_close;
 use common::coupling::Coupling;
 use uam::autopilot::AutopilotMode;
-use uam::controller::{self, Status};
-use uam::defaults::default_parameters;
+use uam::control::{self, Status};
+use uam::parameters::defaults::default_parameters;
 use uam::parameters::{Discretization, Resolution};
 use uam::{Parameters, Structure};
 
@@ -35,7 +35,7 @@ fn assert_foreseen(coupling: &Coupling, tolerance: f64) {
     assert_close(c.predicted_end_effector.as_slice(), o.end_effector.as_slice(), tolerance, "end effector");
 }
 
-fn start(parameters: &Parameters) -> controller::Outputs {
+fn start(parameters: &Parameters) -> control::Outputs {
     Coupling::new(DEFAULT, parameters).commands
 }
 

@@ -9,7 +9,7 @@ use common::{assert_close, cases, derivative};
 use nalgebra::Vector2;
 use proptest::prelude::*;
 use uam::autopilot::AutopilotMode;
-use uam::defaults::default_parameters;
+use uam::parameters::defaults::default_parameters;
 use uam::parameters::{Actuation, Balance};
 use uam::plant::{self, Outputs};
 use uam::{Error, Parameters, Structure};

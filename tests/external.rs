@@ -7,7 +7,7 @@ mod common;
 use common::coupling::Coupling;
 use nalgebra::Vector2;
 use uam::Structure;
-use uam::defaults::default_parameters;
+use uam::parameters::defaults::default_parameters;
 use uam::reference::{ReferenceInstant, ReferenceKind};
 
 /// Which derivatives a host gives beside the position.

@@ -6,8 +6,8 @@ mod common;
 
 use common::assert_close;
 use common::coupling::Coupling;
-use uam::controller::Status;
-use uam::defaults::default_parameters;
+use uam::control::Status;
+use uam::parameters::defaults::default_parameters;
 use uam::parameters::{Discretization, Hold, Resolution};
 use uam::{Parameters, Structure};
 
@@ -120,7 +120,7 @@ fn the_thesis_rates_may_be_interpolated() {
 #[test]
 fn least_squares_holds_constant_rates() {
     let parameters = pick_up(Resolution::LeastSquares, Hold::FirstOrder);
-    let mut outputs = uam::controller::Outputs::default();
-    let refusal = uam::controller::new(Structure::DEFAULT, &parameters, &mut outputs).err().unwrap().to_string();
+    let mut outputs = uam::control::Outputs::default();
+    let refusal = uam::control::new(Structure::DEFAULT, &parameters, &mut outputs).err().unwrap().to_string();
     assert!(refusal.contains("ik.hold") && refusal.contains("zero_order"), "{refusal}");
 }

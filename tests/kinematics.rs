@@ -11,8 +11,8 @@ use common::{assert_close, cases};
 use nalgebra::Vector2;
 use proptest::prelude::*;
 use uam::Structure;
-use uam::defaults::default_parameters;
 use uam::parameters::Balance;
+use uam::parameters::defaults::default_parameters;
 use uam::plant::Outputs;
 
 fn hanging(links: usize) -> Run {

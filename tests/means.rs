@@ -230,7 +230,7 @@ proptest! {
 #[test]
 fn at_rest_the_means_are_the_static_loads() {
     let structure = uam::Structure::new(2, Balance::Counterweight).unwrap();
-    let mut p = uam::defaults::default_parameters(structure);
+    let mut p = uam::parameters::defaults::default_parameters(structure);
     (p.joints[0].start, p.joints[1].start) = (0.3, 0.4);
     p.autopilot.mode = AutopilotMode::Ideal;
     let mut run = Run::new(structure, p);

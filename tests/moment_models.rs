@@ -13,7 +13,7 @@ use common::simpson;
 use nalgebra::{Vector2, Vector3};
 use proptest::prelude::*;
 use uam::autopilot::AutopilotMode;
-use uam::controller::{self, Status};
+use uam::control::{self, Status};
 use uam::parameters::{Balance, BaseModel, Discretization, MomentModel, Resolution};
 use uam::reference::{Leg, Profile};
 use uam::{Parameters, Structure};
@@ -52,7 +52,7 @@ fn vehicle(random: &mut Random) -> (Structure, Parameters) {
 }
 
 /// Away from configurations where path and moment contradict each other and rates grow.
-fn calm(outputs: &controller::Outputs) -> bool {
+fn calm(outputs: &control::Outputs) -> bool {
     matches!(outputs.status, Status::Ok | Status::Inexact) && outputs.rate_command.iter().all(|rate| rate.abs() < 1.0)
 }
 
@@ -115,8 +115,8 @@ fn largest_moment(random: &mut Random, moment_model: MomentModel, discretization
     parameters.ik.discretization = discretization;
     parameters.ik.sample_time = size;
     let model = Model { structure, parameters: parameters.clone() };
-    let mut outputs = controller::Outputs::default();
-    let mut planner = controller::new(structure, &parameters, &mut outputs).unwrap();
+    let mut outputs = control::Outputs::default();
+    let mut planner = control::new(structure, &parameters, &mut outputs).unwrap();
     let (mut before, mut largest) = (0.0, 0.0_f64);
     for k in 0..(0.3 / size) as usize {
         if !calm(&outputs) {
@@ -132,7 +132,7 @@ fn largest_moment(random: &mut Random, moment_model: MomentModel, discretization
         let (after, impulse) = step.balance(moment_model);
         largest = largest.max(((before + impulse - after) / size).abs());
         before = after;
-        planner.step(&controller::Inputs::default(), k as f64 * size, size, &mut outputs).unwrap();
+        planner.step(&control::Inputs::default(), k as f64 * size, size, &mut outputs).unwrap();
     }
     largest
 }
@@ -181,7 +181,7 @@ proptest! {
 fn the_models_differ_where_they_should() {
     let moments = |base_model: BaseModel| {
         [MomentModel::FixedBase, MomentModel::SlidingBase, MomentModel::FreeBase].map(|moment_model| {
-            let mut parameters = uam::defaults::default_parameters(Structure::DEFAULT);
+            let mut parameters = uam::parameters::defaults::default_parameters(Structure::DEFAULT);
             parameters.ik.base_model = base_model;
             parameters.ik.moment_model = moment_model;
             parameters.ik.moment_damping = 0.0;

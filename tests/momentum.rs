@@ -9,10 +9,10 @@ use common::{assert_close, cases};
 use nalgebra::{SVector, Vector2, Vector3};
 use proptest::prelude::*;
 use uam::for_coordinates;
-use uam::kinematics::Posture;
-use uam::momentum::{MomentumMatrix, Twist, inertial_load, outboard_drift, outboard_momentum};
-use uam::planar::Turn;
-use uam::vehicle::Vehicle;
+use uam::mechanics::kinematics::Posture;
+use uam::mechanics::momentum::{MomentumMatrix, Twist, inertial_load, outboard_drift, outboard_momentum};
+use uam::mechanics::planar::Turn;
+use uam::mechanics::vehicle::Vehicle;
 use uam::{Parameters, Structure};
 
 /// A vehicle in any pose and motion.

@@ -2,12 +2,13 @@
 
 mod common;
 
-use uam::defaults::default_parameters;
-use uam::fmi2::{CommunicationStep, Identity, Instance, Model};
-use uam::interface::{controller::ControllerUnit, plant::PlantUnit};
+use uam::fmi::v2::Instance;
+use uam::fmi::{CommunicationStep, Identity, Model};
+use uam::parameters::defaults::default_parameters;
 use uam::parameters::{Balance, MAX_LINKS, Resolution};
+use uam::units::{controller::ControllerUnit, plant::PlantUnit};
 use uam::variables::{Bounds, Causality, Kind, Variable};
-use uam::{Error, Parameters, Structure, controller, plant};
+use uam::{Error, Parameters, Structure, control, plant};
 
 type Change = fn(&mut Parameters);
 
@@ -209,7 +210,7 @@ fn arms_of_no_or_too_many_links_are_refused() {
 }
 
 fn new_controller(structure: Structure, parameters: &Parameters) -> Option<Error> {
-    controller::new(structure, parameters, &mut controller::Outputs::default()).err()
+    control::new(structure, parameters, &mut control::Outputs::default()).err()
 }
 
 /// Two joints follow the path and have nothing left; what balances the arm holds still.

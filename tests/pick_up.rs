@@ -7,7 +7,7 @@ mod common;
 use std::f64::consts::PI;
 
 use common::coupling::Coupling;
-use uam::controller::Status;
+use uam::control::Status;
 use uam::parameters::Discretization;
 use uam::scenarios::{PICK_UP_DURATION, Scenario, find};
 

@@ -4,7 +4,7 @@ mod common;
 
 use common::cases;
 use proptest::prelude::*;
-use uam::planar::{Turn, cross, perp, vec2};
+use uam::mechanics::planar::{Turn, cross, perp, vec2};
 
 /// How far two turns differ in cosine and sine.
 fn difference(a: Turn, b: Turn) -> f64 {

@@ -4,10 +4,10 @@ mod common;
 
 use common::assert_close;
 use uam::Structure;
-use uam::controller::{self, Inputs, Outputs};
-use uam::defaults::default_parameters;
-use uam::options::Choice;
+use uam::control::{self, Inputs, Outputs};
+use uam::parameters::defaults::default_parameters;
 use uam::parameters::{BaseModel, Hold, Parameters};
+use uam::variables::options::Choice;
 
 const STEP: f64 = 2.5e-4;
 
@@ -39,7 +39,7 @@ fn derivatives_of_the_prediction_are_those_of_its_outputs() {
         base.choose(number);
         let (parameters, inputs) = (hurried(base), Inputs::default());
         let mut outputs = Outputs::default();
-        let mut controller = controller::new(Structure::DEFAULT, &parameters, &mut outputs).unwrap();
+        let mut controller = control::new(Structure::DEFAULT, &parameters, &mut outputs).unwrap();
         let mut seen: Vec<([f64; 2], [f64; 3])> = Vec::new();
         for k in 0_u32..2280 {
             controller.step(&inputs, f64::from(k) * STEP, STEP, &mut outputs).unwrap();

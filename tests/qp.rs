@@ -9,7 +9,7 @@ use common::cases;
 use common::random::Random;
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
-use uam::qp::{FREE, MAX_ROWS, MAX_VARIABLES, Outcome, Place, Problem, Rows, TooMany, Vector, solve};
+use uam::control::qp::{FREE, MAX_ROWS, MAX_VARIABLES, Outcome, Place, Problem, Rows, TooMany, Vector, solve};
 
 #[allow(dead_code)] // others take the rest
 #[path = "qp/case.rs"]

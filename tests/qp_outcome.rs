@@ -11,7 +11,7 @@ use std::thread;
 use case::{Case, any_guess, dependent, folded_arm, nasty, penalised};
 use common::random::Random;
 use nalgebra::DVector;
-use uam::qp::{FREE, Outcome, Places, solve};
+use uam::control::qp::{FREE, Outcome, Places, solve};
 
 #[path = "qp/case.rs"]
 mod case;

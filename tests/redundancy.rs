@@ -120,7 +120,7 @@ proptest! {
 /// On an arm at rest the gradient brings the centres of mass together while the end effector stays.
 #[test]
 fn at_rest_the_gradient_balances_the_arm() {
-    let mut parameters = uam::defaults::default_parameters(Structure::DEFAULT);
+    let mut parameters = uam::parameters::defaults::default_parameters(Structure::DEFAULT);
     parameters.payload.grasp_time = 1e9;
     parameters.reference.legs = [const { Leg::NONE }; 4];
     parameters.joints[0].start += 0.3;

@@ -8,9 +8,9 @@ use common::random::Random;
 use common::{assert_close, cases};
 use nalgebra::{DMatrix, DVector, Dyn, SMatrix, SVD, SVector};
 use proptest::prelude::*;
-use uam::controller::{PATH_THRESHOLD, Problem, PseudoInverse, Task};
+use uam::control::{PATH_THRESHOLD, Problem, PseudoInverse, Task};
+use uam::mechanics::planar::vec2;
 use uam::parameters::PathAxes;
-use uam::planar::vec2;
 
 /// Length of the stretched arm.
 const REACH: f64 = 0.5;

@@ -9,7 +9,7 @@ use common::coupling::Coupling;
 use common::random::Random;
 use proptest::prelude::*;
 use uam::Structure;
-use uam::controller::Status;
+use uam::control::Status;
 use uam::parameters::{Balance, BaseModel, Discretization, Hold, MomentModel, PathAxes, Resolution};
 use uam::reference::ReferenceKind;
 

@@ -3,10 +3,10 @@
 #![allow(clippy::unwrap_used)] // in helpers, too
 
 use proptest::prelude::*;
-use uam::fmi2::Model;
-use uam::interface::{controller::ControllerUnit, plant::PlantUnit};
+use uam::fmi::Model;
 use uam::parameters::Balance;
 use uam::scenarios::{Error, Extent, Scenario, catalogue, default_parameters, find};
+use uam::units::{controller::ControllerUnit, plant::PlantUnit};
 use uam::variables::Causality;
 use uam::{Parameters, Structure};
 

@@ -9,7 +9,7 @@ use proptest::prelude::*;
 use uam::Error;
 use uam::Structure;
 use uam::autopilot::AutopilotMode;
-use uam::defaults::default_parameters;
+use uam::parameters::defaults::default_parameters;
 
 fn random_run(seed: u64, mode: AutopilotMode, sample_time: f64) -> (Run, Random) {
     let mut random = Random(seed);

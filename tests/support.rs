@@ -10,8 +10,8 @@ use common::{assert_close, cases};
 use proptest::prelude::*;
 use uam::Structure;
 use uam::autopilot::{AutopilotMode, Gains};
-use uam::defaults::default_parameters;
 use uam::parameters::Balance;
+use uam::parameters::defaults::default_parameters;
 
 /// One link straight down with the payload in the gripper, without control: a point of M = 5.7 kg that moves
 /// vertically; the payload is at y - 0.13 m.

@@ -3,7 +3,7 @@
 #![allow(dead_code, reason = "every benchmark takes what it needs")]
 #![allow(clippy::unwrap_used, reason = "helpers of benchmarks may fail like tests")]
 
-use uam::controller::{self, Planner};
+use uam::control::{self, Planner};
 use uam::parameters::MAX_COORDINATES;
 use uam::plant::{self, Simulation};
 use uam::{Parameters, Structure};
@@ -24,17 +24,17 @@ pub fn links(links: usize) -> Structure {
 pub struct ControllerRun {
     start: Box<dyn Planner>,
     planner: Box<dyn Planner>,
-    inputs: controller::Inputs,
+    inputs: control::Inputs,
     steps: u32,
-    pub outputs: controller::Outputs,
+    pub outputs: control::Outputs,
 }
 
 impl ControllerRun {
     pub fn new(structure: Structure, parameters: Parameters) -> Self {
-        let mut outputs = controller::Outputs::default();
-        let start = controller::new(structure, &parameters, &mut outputs).unwrap();
+        let mut outputs = control::Outputs::default();
+        let start = control::new(structure, &parameters, &mut outputs).unwrap();
         let planner = start.clone();
-        Self { start, planner, inputs: controller::Inputs::default(), steps: 0, outputs }
+        Self { start, planner, inputs: control::Inputs::default(), steps: 0, outputs }
     }
 
     pub fn step(&mut self) {

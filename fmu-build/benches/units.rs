@@ -14,8 +14,8 @@ use fmu_build::coupling::{Coupling, Order, Pair, Schedule};
 use fmu_build::fmu::{Causality, Fmu, Instance, Selection, Value, Values};
 use fmu_build::{BuildOptions, Built, build};
 use uam::Structure;
-use uam::options::Choice;
 use uam::parameters::{Discretization, Resolution};
+use uam::variables::options::Choice;
 
 static BUILT: LazyLock<Built> = LazyLock::new(|| built(Structure::DEFAULT.links));
 

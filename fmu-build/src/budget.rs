@@ -91,7 +91,7 @@ impl Variant {
     /// In a few words.
     #[must_use]
     pub fn name(&self) -> String {
-        use uam::options::Choice;
+        use uam::variables::options::Choice;
         let mut words = vec![self.discretization.name(), self.hold.name()];
         words.push(match self.order {
             Order::Parallel => "parallel",

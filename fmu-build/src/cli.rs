@@ -7,8 +7,8 @@ use clap::{Args, Parser, Subcommand};
 use fmu_build::claims::DISCRETIZATIONS;
 use fmu_build::cross::TARGETS;
 use uam::Structure;
-use uam::options::Choice;
 use uam::parameters::{Balance, Discretization, MAX_LINKS};
+use uam::variables::options::Choice;
 
 const EXAMPLES: &str = "\
 Examples:

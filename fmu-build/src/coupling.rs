@@ -148,7 +148,7 @@ impl Coupling {
     /// # Errors
     /// If the units have other parameters, or do not accept a value.
     pub fn configure(&mut self, structure: uam::Structure, parameters: &uam::Parameters) -> Result<(), fmu::Error> {
-        use uam::interface::{controller::ControllerUnit, plant::PlantUnit};
+        use uam::units::{controller::ControllerUnit, plant::PlantUnit};
         self.controller.set_values(&settings::named_values::<ControllerUnit>(structure, parameters))?;
         self.plant.set_values(&settings::named_values::<PlantUnit>(structure, parameters))
     }

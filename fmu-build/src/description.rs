@@ -3,8 +3,8 @@
 use std::borrow::Cow;
 use std::io;
 
-use uam::fmi2::logger::CATEGORIES;
-use uam::unit::Unit;
+use uam::fmi::v2::logger::CATEGORIES;
+use uam::variables::unit::Unit;
 use uam::variables::{Causality, Variability};
 
 use crate::error::Result;

@@ -1,10 +1,10 @@
 //! What is chosen when a pair of units is built.
 
-use uam::defaults;
-use uam::fmi2::{Identity, Model, Naming};
-use uam::interface::controller::ControllerUnit;
-use uam::interface::plant::PlantUnit;
+use uam::fmi::{Identity, Model, Naming};
+use uam::parameters::defaults;
 use uam::scenarios::{self, Scenario};
+use uam::units::controller::ControllerUnit;
+use uam::units::plant::PlantUnit;
 use uam::{Parameters, Structure};
 
 /// Everything in which one pair of units differs from another.

@@ -1,7 +1,7 @@
 //! `documentation/index.html`: what a unit is and computes, how to connect it, and all its variables.
 
 use maud::{Markup, html};
-use uam::fmi2::Naming;
+use uam::fmi::Naming;
 
 use crate::html::document;
 use crate::units::Unit;

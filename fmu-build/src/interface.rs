@@ -1,8 +1,9 @@
 //! What a unit shows to the world, as plain data: the one source of every file that describes it.
 
-use uam::fmi2::{Capabilities, Model, Naming, start_file};
-use uam::options::Item;
-use uam::unit::Unit;
+use uam::fmi::v2::Capabilities;
+use uam::fmi::{Model, Naming, start_file};
+use uam::variables::options::Item;
+use uam::variables::unit::Unit;
 use uam::variables::{self, Bounds, Causality, Kind, Variability};
 use uam::{Parameters, Structure};
 

@@ -1,6 +1,6 @@
 //! An FMU: description, library, documentation, licences and picture in one archive.
 
-use uam::fmi2::start_file;
+use uam::fmi::start_file;
 
 use crate::archive::Archive;
 use crate::description::model_description;

@@ -5,10 +5,10 @@
 //! where the equations of the path and the bounds contradict each other, and its program finds no solution. An error of
 //! the end effector is no measure of that: the thesis' own step has one on any path.
 
-use uam::options::Choice;
 use uam::parameters::Discretization;
 use uam::reference::{Reference, ReferenceKind};
 use uam::scenarios::Scenario;
+use uam::variables::options::Choice;
 
 use crate::claims::Quantity;
 use crate::coupling::{Error, Pair};

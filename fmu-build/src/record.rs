@@ -299,8 +299,8 @@ mod tests {
 
     #[test]
     fn standard_names_are_outputs_of_the_units() {
-        use uam::fmi2::Model;
-        use uam::interface::{controller::ControllerUnit, plant::PlantUnit};
+        use uam::fmi::Model;
+        use uam::units::{controller::ControllerUnit, plant::PlantUnit};
         for structure in Structure::all() {
             let names = Names::standard(structure);
             let (controller, plant) = (ControllerUnit::table(structure), PlantUnit::table(structure));

@@ -1,6 +1,6 @@
 //! The parameters of a run as the named values that a unit takes.
 
-use uam::fmi2::Model;
+use uam::fmi::Model;
 use uam::variables::{Causality, Kind};
 use uam::{Parameters, Structure};
 
@@ -51,9 +51,9 @@ where
 
 #[cfg(test)]
 mod tests {
-    use uam::interface::{controller::ControllerUnit, plant::PlantUnit};
     use uam::parameters::Resolution;
     use uam::scenarios;
+    use uam::units::{controller::ControllerUnit, plant::PlantUnit};
 
     use super::*;
 

@@ -5,9 +5,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
 use uam::Structure;
-use uam::options::Choice;
 use uam::parameters::Discretization;
 use uam::scenarios::{self, Scenario, catalogue};
+use uam::variables::options::Choice;
 
 use crate::claims::{self, Claim, DISCRETIZATIONS, Numbers, Quantity, Row, Table};
 use crate::coupling::{Error, Order, Pair, Schedule};

@@ -1,8 +1,8 @@
 //! The two units of a pair, with all that goes into their files beside the libraries.
 
 use uam::Structure;
-use uam::interface::controller::ControllerUnit;
-use uam::interface::plant::PlantUnit;
+use uam::units::controller::ControllerUnit;
+use uam::units::plant::PlantUnit;
 
 use crate::design::Design;
 use crate::interface::Interface;

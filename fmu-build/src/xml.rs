@@ -5,7 +5,7 @@ use std::io;
 
 use quick_xml::events::{BytesDecl, Event};
 use quick_xml::writer::{ElementWriter, Writer};
-use uam::unit::Unit;
+use uam::variables::unit::Unit;
 
 use crate::error::{Error, Result};
 

@@ -8,9 +8,9 @@ use fmu_build::coupling::{Coupling, Order, Schedule};
 use fmu_build::fmu::{Fmu, Selection, Value};
 use fmu_build::record::{Names, Recording};
 use fmu_build::run::run;
-use uam::fmi2::{CommunicationStep, Model};
-use uam::interface::{controller::ControllerUnit, plant::PlantUnit};
+use uam::fmi::{CommunicationStep, Model};
 use uam::scenarios::{Scenario, find};
+use uam::units::{controller::ControllerUnit, plant::PlantUnit};
 
 fn scenario() -> Scenario {
     find("4.3a").unwrap()

@@ -10,7 +10,7 @@ use fmu_build::interface::{Interface, Value, Variable};
 use fmu_build::units::Unit;
 use roxmltree::{Document, Node};
 use uam::Structure;
-use uam::fmi2::Naming;
+use uam::fmi::Naming;
 use uam::variables::Causality;
 
 /// Runs `check` on every unit of every structure with its parsed model description.

@@ -15,9 +15,9 @@ use fmu_build::cross::{TARGETS, Toolchain};
 use fmu_build::fmu::{Causality, Instance, Selection};
 use fmu_build::study::on_all_cores;
 use fmu_build::{claims::DISCRETIZATIONS, workspace};
-use uam::options::Choice;
 use uam::parameters::Discretization;
 use uam::scenarios::{Scenario, catalogue};
+use uam::variables::options::Choice;
 
 mod common;
 

@@ -13,7 +13,7 @@ use fmu_build::package::fmu;
 use fmu_build::platform::Platform;
 use fmu_build::units::Unit;
 use fmu_build::{BuildOptions, Built, Design, build};
-use uam::fmi2::Naming;
+use uam::fmi::Naming;
 use uam::scenarios::find;
 use zip::ZipArchive;
 

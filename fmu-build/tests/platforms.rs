@@ -18,7 +18,7 @@ use object::read::macho::{FatArch, MachHeader, MachOFatFile32};
 use object::read::{NameOrOrdinal, Object};
 use object::{Architecture, Endianness};
 use uam::Structure;
-use uam::fmi2::start_file;
+use uam::fmi::start_file;
 use zip::ZipArchive;
 
 mod common;

@@ -2,7 +2,7 @@
 
 use super::{Balance, Parameters, Structure};
 use crate::reference::LEGS;
-use crate::unit;
+use crate::variables::unit;
 use crate::variables::{Bounds, Table};
 
 /// Declares the parameters that both units have.

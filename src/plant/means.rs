@@ -11,12 +11,12 @@ use nalgebra::SVector;
 use super::Outputs;
 use crate::autopilot::AutopilotMode;
 use crate::bytes::Tape;
-use crate::dynamics::{Account, Dynamics, Impulse, Load, Loads, Outboard, Situation};
+use crate::mechanics::dynamics::{Account, Dynamics, Impulse, Load, Loads, Outboard, Situation};
+use crate::mechanics::momentum::outboard_momentum;
+use crate::mechanics::planar::{Vec2, vec2};
+use crate::mechanics::vehicle::Vehicle;
 use crate::memory;
-use crate::momentum::outboard_momentum;
 use crate::pass;
-use crate::planar::{Vec2, vec2};
-use crate::vehicle::Vehicle;
 
 /// A step shorter than this keeps the previous means and adds its impulse to the next ones \[s\].
 const SHORTEST: f64 = 1e-9;

@@ -1,7 +1,7 @@
 //! First derivatives of the inputs for one step, as far as they are given.
 
 use super::Inputs;
-use crate::dynamics::Load;
+use crate::mechanics::dynamics::Load;
 use crate::memory;
 use crate::parameters::MAX_COORDINATES;
 

@@ -6,7 +6,7 @@ use super::error::near;
 use super::syntax::{self, printable};
 use super::unknown::{near_keys, no_parameter};
 use super::{Error, Problem, Scenario, THESIS_STEP, default_parameters};
-use crate::controller;
+use crate::control;
 use crate::parameters::{Balance, Parameters, Structure};
 use crate::variables::{Kind, Variable};
 
@@ -163,7 +163,7 @@ impl Document<'_> {
             };
             entry.put(variable, parameters)?;
         }
-        controller::check(structure, parameters).map_err(|error| {
+        control::check(structure, parameters).map_err(|error| {
             let name = error.parameter().unwrap_or_default();
             match self.entries.iter().find(|entry| entry.parameter() == Some(name)) {
                 Some(entry) => entry.refused(Problem::Parameter(error)),

@@ -3,10 +3,10 @@
 use super::Problem;
 use super::error::near;
 use super::reader::{KEYS, PARAMETERS};
-use crate::fmi2::Model;
-use crate::interface::controller::ControllerUnit;
-use crate::interface::plant::PlantUnit;
+use crate::fmi::Model;
 use crate::parameters::{Parameters, Structure};
+use crate::units::controller::ControllerUnit;
+use crate::units::plant::PlantUnit;
 use crate::variables::Causality;
 
 /// Keys that may have been meant: for a parameter outside its table, that inside.

@@ -1,21 +1,21 @@
 //! Controller and plant connected by rates and grasp, as a master would.
 
-use uam::controller::{self, Inputs, Planner};
+use uam::control::{self, Inputs, Planner};
 use uam::{Parameters, Structure};
 
 use super::run::Run;
 
 pub struct Coupling {
     pub plant: Run,
-    pub commands: controller::Outputs,
+    pub commands: control::Outputs,
     pub external: Inputs,
     planner: Box<dyn Planner>,
 }
 
 impl Coupling {
     pub fn new(structure: Structure, parameters: &Parameters) -> Self {
-        let mut commands = controller::Outputs::default();
-        let planner = controller::new(structure, parameters, &mut commands).unwrap();
+        let mut commands = control::Outputs::default();
+        let planner = control::new(structure, parameters, &mut commands).unwrap();
         Self { plant: Run::new(structure, parameters.clone()), commands, external: Inputs::default(), planner }
     }
 

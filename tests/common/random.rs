@@ -3,8 +3,8 @@
 use nalgebra::Vector2;
 use proptest::prelude::*;
 use uam::autopilot::{AutopilotMode, Gains};
-use uam::defaults::default_parameters;
-use uam::dynamics::Load;
+use uam::mechanics::dynamics::Load;
+use uam::parameters::defaults::default_parameters;
 use uam::parameters::{Balance, Link};
 use uam::plant::Inputs;
 use uam::{Parameters, Structure};

@@ -1,7 +1,7 @@
 //! Problems with their matrices in the open, and random ones of every kind.
 
 use nalgebra::{DMatrix, DVector};
-use uam::qp::{MAX_ROWS, Place, Places, Problem, Solution};
+use uam::control::qp::{MAX_ROWS, Place, Places, Problem, Solution};
 
 use crate::common::random::Random;
 

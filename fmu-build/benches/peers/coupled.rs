@@ -5,8 +5,8 @@ use std::time::Instant;
 
 use fmu_build::coupling::{Coupling, Order, Pair, Schedule};
 use fmu_build::fmu::{Instance, Selection};
-use uam::options::Choice;
 use uam::parameters::{Discretization, Resolution};
+use uam::variables::options::Choice;
 
 use crate::kinematics::choose;
 use crate::measure::{Candidate, Contest, Spread};

@@ -10,13 +10,13 @@ use std::time::Instant;
 use fmu_build::coupling::Pair;
 use fmu_build::fmu::{Instance, Selection, Value};
 use libloading::Library;
-use uam::controller::{Inputs, Outputs, Problem, Response, Task};
-use uam::dynamics::{Dynamics, Node, State};
-use uam::momentum::Twist;
-use uam::options::Choice;
+use uam::control::{Inputs, Outputs, Problem, Response, Task};
+use uam::mechanics::dynamics::{Dynamics, Node, State};
+use uam::mechanics::momentum::Twist;
+use uam::mechanics::planar::{Turn, vec2};
 use uam::parameters::{BaseModel, Discretization, PathAxes, Resolution};
-use uam::planar::{Turn, vec2};
 use uam::scenarios::default_parameters;
+use uam::variables::options::Choice;
 use uam::{Parameters, Structure};
 
 use crate::library::{function, open};
@@ -146,7 +146,7 @@ fn parameters() -> Parameters {
 /// Steps of a controller of the library with these parameters: time of one \[s\].
 pub fn by_library(parameters: &Parameters) -> f64 {
     let mut outputs = Outputs::default();
-    let mut controller = uam::controller::new(Structure::DEFAULT, parameters, &mut outputs).unwrap();
+    let mut controller = uam::control::new(Structure::DEFAULT, parameters, &mut outputs).unwrap();
     let inputs = Inputs::default();
     let begin = Instant::now();
     for n in 0..STEPS {

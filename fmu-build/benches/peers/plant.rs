@@ -12,10 +12,10 @@ use std::time::Instant;
 use fmu_build::coupling::Pair;
 use fmu_build::fmu::{Instance, Selection, Value};
 use libloading::Library;
-use uam::options::Choice;
 use uam::parameters::Actuation;
 use uam::plant::{Inputs, Outputs};
 use uam::scenarios::default_parameters;
+use uam::variables::options::Choice;
 use uam::{Parameters, Structure};
 
 use crate::library::{function, open};

@@ -7,7 +7,7 @@ use std::time::Instant;
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SupportedConeT, ZeroConeT};
 use fastrand::Rng;
-use uam::qp::{FREE, Outcome, Place, Places, Problem, Solution, solve};
+use uam::control::qp::{FREE, Outcome, Place, Places, Problem, Solution, solve};
 
 use crate::library::{function, open};
 use crate::measure::{Candidate, Contest, fastest};

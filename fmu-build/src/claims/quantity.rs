@@ -1,9 +1,9 @@
 //! Numbers that sum up a run.
 
 use uam::Structure;
-use uam::controller::Status;
-use uam::options::Choice;
+use uam::control::Status;
 use uam::parameters::Balance;
+use uam::variables::options::Choice;
 
 use super::LOST;
 use super::reading::{Reading, Shown};

@@ -8,7 +8,7 @@ use fmu_build::cross::{TARGETS, Target, Toolchain};
 use fmu_build::files::Written;
 use fmu_build::platform::Platform;
 use fmu_build::{BuildOptions, Design};
-use uam::fmi2::Naming;
+use uam::fmi::Naming;
 
 use super::{build_files, scenario};
 use crate::cli::BuildArguments;

@@ -7,9 +7,9 @@ use fmu_build::files;
 use fmu_build::interface::Variable;
 use fmu_build::settings::changes;
 use fmu_build::ssp::parameters;
-use uam::interface::controller::ControllerUnit;
-use uam::interface::plant::PlantUnit;
 use uam::scenarios::{Extent, Scenario};
+use uam::units::controller::ControllerUnit;
+use uam::units::plant::PlantUnit;
 
 use crate::terminal::wrote;
 

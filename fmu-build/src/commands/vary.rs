@@ -4,8 +4,8 @@ use anyhow::{Result, ensure};
 use fmu_build::claims::{self, Claim, DISCRETIZATIONS, Quantity, Row, Table};
 use fmu_build::study::{self, Summary};
 use fmu_build::variation::vary;
-use uam::options::Choice;
 use uam::scenarios::{Scenario, find};
+use uam::variables::options::Choice;
 
 use super::{Pairs, Progress, complain};
 use crate::cli::VaryArguments;

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use maud::{Markup, html};
-use uam::planar::{Turn, Vec2, vec2};
+use uam::mechanics::planar::{Turn, Vec2, vec2};
 use uam::reference::ReferenceKind;
 
 use super::Series;

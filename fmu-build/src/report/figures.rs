@@ -1,9 +1,9 @@
 //! The figures of a report: what is drawn, and how to read it.
 
 use maud::{Markup, html};
-use uam::controller::Status;
-use uam::options::Choice;
+use uam::control::Status;
 use uam::parameters::Balance;
+use uam::variables::options::Choice;
 
 use super::chart::{Curve, Panel, Scale, TIME};
 use super::{Error, Series, arm, panels};

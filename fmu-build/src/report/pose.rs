@@ -1,7 +1,7 @@
 //! Where everything is at one row of a recording, for drawings.
 
+use uam::mechanics::planar::{Turn, Vec2, vec2};
 use uam::parameters::Balance;
-use uam::planar::{Turn, Vec2, vec2};
 use uam::scenarios::Scenario;
 
 use crate::record::{NotRecorded, Recording};

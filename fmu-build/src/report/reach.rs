@@ -1,8 +1,8 @@
 //! The report on how far the arm reaches.
 
 use maud::html;
-use uam::options::Choice;
 use uam::scenarios::Scenario;
+use uam::variables::options::Choice;
 
 use super::chart::{Across, Curve, Panel, Scale};
 use super::panels::panels;

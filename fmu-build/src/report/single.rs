@@ -1,7 +1,7 @@
 //! The report of one run of any scenario.
 
 use maud::html;
-use uam::options::Choice;
+use uam::variables::options::Choice;
 
 use super::{Error, Report, Series, Topic, figures, style};
 use crate::claims::{self, Numbers, Quantity, Row, Table};

@@ -2,7 +2,7 @@
 
 use std::io;
 
-use uam::unit::Unit;
+use uam::variables::unit::Unit;
 
 use crate::xml::{self, Ending, Xml};
 

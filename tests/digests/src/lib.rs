@@ -1,6 +1,6 @@
 //! Digests of runs: equal digests, equal bits.
 
-use uam::fmi2::hash::fnv1a;
+use uam::fmi::hash::fnv1a;
 
 /// Every so many communication points are part of a digest, beside the last one.
 pub const EVERY: usize = 50;

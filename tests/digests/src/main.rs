@@ -4,12 +4,13 @@
 use std::process::ExitCode;
 
 use digests::{Digest, EVERY};
-use uam::fmi2::{Error, Identity, Instance, Model, Naming};
-use uam::interface::{controller::ControllerUnit, plant::PlantUnit};
-use uam::options::Choice;
+use uam::fmi::v2::{Error, Instance};
+use uam::fmi::{Identity, Model, Naming};
 use uam::parameters::Discretization;
 use uam::scenarios::{Scenario, catalogue};
+use uam::units::{controller::ControllerUnit, plant::PlantUnit};
 use uam::variables::Causality;
+use uam::variables::options::Choice;
 
 fn main() -> ExitCode {
     let scenarios = match catalogue() {

@@ -7,9 +7,9 @@ use std::path::Path;
 
 use fmu_build::platform::Platform;
 use uam::Structure;
-use uam::fmi2::Model;
-use uam::interface::controller::ControllerUnit;
-use uam::interface::plant::PlantUnit;
+use uam::fmi::Model;
+use uam::units::controller::ControllerUnit;
+use uam::units::plant::PlantUnit;
 use uam::variables::{Causality, Kind, Table};
 
 use crate::functions::Functions;

@@ -3,10 +3,10 @@
 use std::fmt;
 
 use uam::autopilot::AutopilotMode;
-use uam::options::Choice;
+use uam::mechanics::planar::{Turn, Vec2};
 use uam::parameters::{Actuation, Balance, Discretization, Resolution};
-use uam::planar::{Turn, Vec2};
 use uam::scenarios::{Extent, Scenario};
+use uam::variables::options::Choice;
 use uam::variables::{Kind, Variability};
 use uam::{Parameters, Structure};
 

@@ -7,7 +7,7 @@ use misuse::functions::{Component, Functions, OK, State};
 use misuse::host;
 use misuse::unit::{Unit, Variable};
 use uam::Structure;
-use uam::fmi2::{Identity, Model};
+use uam::fmi::{Identity, Model};
 use uam::parameters::Balance;
 
 use crate::environment::Environment;

@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 
 use misuse::digest::Digest;
 use misuse::unit::Unit;
-use uam::interface::controller::ControllerUnit;
-use uam::interface::plant::PlantUnit;
+use uam::mechanics::planar::Vec2;
 use uam::parameters::{Hold, PathAxes, Resolution};
-use uam::planar::Vec2;
+use uam::units::controller::ControllerUnit;
+use uam::units::plant::PlantUnit;
 
 use crate::case::{Back, Case};
 use crate::checks::{self, Check, Now};

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use comfy_table::Table;
-use uam::options::Choice;
+use uam::variables::options::Choice;
 
 use crate::case::Case;
 use crate::play::{Broken, Track};

@@ -1,7 +1,7 @@
 //! What both units show at a communication point.
 
-use uam::controller::Status;
-use uam::options::Choice;
+use uam::control::Status;
+use uam::variables::options::Choice;
 
 use crate::pair::Pair;
 

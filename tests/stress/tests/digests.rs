@@ -21,11 +21,8 @@ const FILE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/digests.txt");
 fn random_couplings_give_the_digests_under_version_control() {
     let folder = PathBuf::from(PROGRAM).parent().unwrap().join("stress-fmus-of-digests");
     build(&BuildOptions::new(Structure::DEFAULT, folder.clone()), &|_| ()).unwrap_or_else(|error| panic!("{error}"));
-    let output = Command::new(PROGRAM)
-        .arg(folder)
-        .args(["--digests", "--couplings", "300", "--seed", "13"])
-        .output()
-        .unwrap();
+    let output =
+        Command::new(PROGRAM).arg(folder).args(["--digests", "--couplings", "300", "--seed", "13"]).output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let found = String::from_utf8(output.stdout).unwrap();
     if env::var_os("UAM_REGENERATE").is_some() {

@@ -3,9 +3,9 @@
 //! even; and wherever it was before, it ends within 1e-6 m of a reference that has come to rest, unless narrow limits are
 //! in its way.
 
-use uam::controller::PATH_THRESHOLD;
+use uam::control::PATH_THRESHOLD;
+use uam::mechanics::planar::{Turn, Vec2};
 use uam::parameters::PathAxes;
-use uam::planar::{Turn, Vec2};
 
 use super::{Check, Now};
 use crate::case::Case;

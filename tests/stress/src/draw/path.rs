@@ -1,7 +1,7 @@
 //! Wanted motions.
 
+use uam::mechanics::planar::{Turn, Vec2};
 use uam::parameters::PathAxes;
-use uam::planar::{Turn, Vec2};
 use uam::reference::{Circle, Leg, Profile, Reference, ReferenceKind, Target};
 use uam::{Parameters, Structure};
 

@@ -1,6 +1,6 @@
 //! Where the arm is at the start.
 
-use uam::planar::{Turn, Vec2};
+use uam::mechanics::planar::{Turn, Vec2};
 use uam::{Parameters, Structure};
 
 use super::Draw;

@@ -1,0 +1,267 @@
+//! When to plan, what to hold, and what to tell the host.
+//!
+//! At a communication point the controller plans the rates for the coming interval and holds them until
+//! the next sample instant, while the prediction advances by the host's real steps with the rates sent.
+
+use nalgebra::SVector;
+
+use super::clock::Clock;
+use super::damping::MomentDamping;
+use super::foreseen::Foreseen;
+use super::outset::Outset;
+use super::plan::Plan;
+use super::prediction::Prediction;
+use super::resolution::Resolver;
+use super::{Inputs, Outputs, Planner, Rates};
+use crate::autopilot::AutopilotMode;
+use crate::bytes::{Memory, Tape};
+use crate::control::qp;
+use crate::error::Result;
+use crate::mechanics::dynamics::{Dynamics, Load, Motion};
+use crate::mechanics::planar::Vec2;
+use crate::parameters::{Discretization, Hold, Parameters, Structure};
+use crate::pass;
+use crate::reference::Target;
+
+/// Times this close are the same \[s\]: hosts add up their steps.
+const SAME_TIME: f64 = 1e-9;
+
+/// Inverse kinematics of an aerial manipulator with `N` coordinates, with its prediction.
+#[derive(Debug, Clone)]
+pub struct Controller<const N: usize> {
+    outset: Outset<N>,
+    /// Accelerations sent at the communication point before.
+    slope_before: SVector<f64, N>,
+    discretization: Discretization,
+    clock: Clock,
+    grasp_time: f64,
+    foreseen: Foreseen,
+    /// Where the reference was expected at the end of the planned interval.
+    aim: Target,
+    /// How far the end of the planned interval was off the reference \[m\].
+    planned_miss: Vec2,
+    /// The mean moment of the present plan on the UAV, without what it gives back \[N m\]; none if it had to give up what
+    /// was wanted of the moment.
+    lasting_moment: Option<f64>,
+    /// The prediction at the end of the planned interval, as long as that is untouched: nothing of it has passed,
+    /// and the laws are those of the plan.
+    planned_end: Box<Prediction<N>>,
+    untouched: bool,
+    /// When the planned interval begins, from the start \[s\].
+    planned_at: f64,
+}
+
+impl<const N: usize> Controller<N> {
+    /// At the start, with nothing planned.
+    ///
+    /// # Errors
+    /// If the parameters do not go together.
+    pub fn new(structure: Structure, parameters: &Parameters) -> Result<Self> {
+        let ik = &parameters.ik;
+        let mut dynamics = Dynamics::new(structure, parameters, ik.base_model)?;
+        // Of an autopilot outside, the pid law with the same gains is the best guess.
+        if dynamics.autopilot.mode == AutopilotMode::External {
+            dynamics.set_mode(AutopilotMode::Pid);
+        }
+        let now = Box::new(Prediction::at_rest(dynamics.start(parameters)));
+        let (origin, planned_end) = (now.end_effector(), now.clone());
+        Ok(Self {
+            outset: Outset {
+                resolver: Resolver::new(structure, parameters, dynamics.vehicle.reach()),
+                hold: ik.hold,
+                motion: Motion::constant(SVector::zeros()),
+                before: [Motion::constant(SVector::zeros()); 5],
+                places: qp::FREE,
+                dynamics,
+                now,
+                damping: MomentDamping::new(ik),
+                owed: 0.0,
+            },
+            discretization: ik.discretization,
+            clock: Clock::new(ik.sample_time),
+            grasp_time: parameters.payload.grasp_time,
+            foreseen: Foreseen::new(parameters.reference, origin),
+            slope_before: SVector::zeros(),
+            planned_end,
+            untouched: false,
+            planned_at: 0.0,
+            aim: Target { displacement: origin, ..Target::AT_REST },
+            planned_miss: Vec2::zeros(),
+            lasting_moment: None,
+        })
+    }
+
+    /// Takes the payload over in the prediction if it is time: the host is told at the same instant.
+    fn grasp_in_time(&mut self, t: f64) {
+        let Outset { dynamics, now, .. } = &mut self.outset;
+        if t >= self.grasp_time - SAME_TIME && !now.situation.state.held {
+            dynamics.grasp(&mut now.situation);
+        }
+    }
+
+    /// Plans the interval from time `t` on, where the reference is at `wanted` and was foreseen at `expected` \[m\].
+    fn plan(&mut self, t: f64, wanted: &Target, expected: Vec2, outputs: &mut Outputs) -> Result<()> {
+        let Self { outset, planned_end: end, clock, .. } = self;
+        let horizon = clock.horizon;
+        let target = self.foreseen.at(t + horizon);
+        outset.damping.prepare(horizon);
+        let mut plan = match self.discretization {
+            Discretization::Exact => outset.plan_towards(t, clock, expected, wanted.displacement, target, end)?,
+            Discretization::Euler if outset.resolver.accelerates() => {
+                outset.accelerate_euler(t, clock, wanted.acceleration, end)
+            }
+            Discretization::Euler => outset.plan_euler(t, clock, target.velocity, end),
+        };
+        plan.check(t)?;
+        end.situation.state.check(t)?;
+        self.planned_miss = outset.resolver.followed(target.displacement - end.end_effector());
+        self.aim = *target;
+        outset.damping.momentum = plan.momentum;
+        if plan.moment_is_met() {
+            self.lasting_moment = Some(plan.moment_residual + outset.owed / horizon);
+        } else {
+            (self.lasting_moment, outset.owed) = (None, 0.0);
+        }
+        plan.admit_miss(self.planned_miss.norm());
+        if self.discretization == Discretization::Exact {
+            outset.before.rotate_right(1);
+            outset.before[0] = plan.motion;
+        }
+        outset.motion = plan.motion;
+        outset.places = plan.places;
+        (self.planned_at, self.untouched) = (t, true);
+        outputs.status = plan.status;
+        outputs.min_singular_value = plan.min_singular_value;
+        outputs.velocity_residual = plan.velocity_residual;
+        outputs.moment_residual = plan.moment_residual;
+        Ok(())
+    }
+
+    /// Advances the prediction by `size` \[s\] at the rates sent.
+    fn predict(&mut self, t: f64, size: f64) -> Result<()> {
+        let Self { outset, planned_end: end, .. } = self;
+        // The plan has already been there, if the host makes the step that it was made for; samples of the autopilot are
+        // taken by the clock, which may have been rounded.
+        if !self.untouched || size != self.clock.horizon || (t != self.planned_at && outset.dynamics.is_sampled()) {
+            let mut step = Plan::moving(outset.motion);
+            if self.discretization == Discretization::Euler {
+                step.moment_residual = outset.predict_euler(t, size, end) / size;
+            } else {
+                outset.carry_out(&mut step, t, size, end)?;
+            }
+            end.situation.state.check(t + size)?;
+            if let Some(lasting) = self.lasting_moment {
+                outset.owed += (step.moment_residual - lasting) * size;
+            }
+        } else if self.lasting_moment.is_some() {
+            outset.owed = 0.0;
+        }
+        std::mem::swap(&mut outset.now, end);
+        outset.damping.advance(size, self.lasting_moment.is_some());
+        self.clock.advance(size);
+        self.untouched = false;
+        self.slope_before = outset.motion.slope;
+        outset.motion = outset.motion.after(size);
+        Ok(())
+    }
+
+    fn write_prediction(&self, wanted: &Target, outputs: &mut Outputs) {
+        let Outset { now, motion, .. } = &self.outset;
+        let state = &now.situation.state;
+        outputs.rate_command[..N].copy_from_slice(motion.rate.as_slice());
+        outputs.acceleration_command[..N].copy_from_slice(motion.slope.as_slice());
+        outputs.grasp = state.held;
+        outputs.reference = wanted.displacement;
+        outputs.reference_velocity = wanted.velocity;
+        outputs.predicted_pose = state.pose;
+        outputs.predicted_velocity = state.velocity;
+        outputs.predicted_position[..N].copy_from_slice(state.position.as_slice());
+        outputs.predicted_end_effector = now.end_effector();
+    }
+}
+
+impl<const N: usize> Memory for Controller<N> {
+    fn pass(&mut self, tape: &mut Tape<'_>) {
+        // Without "..": whoever adds a field decides here whether it follows from the parameters.
+        let Self {
+            outset,
+            slope_before,
+            discretization: _,
+            clock,
+            grasp_time: _,
+            foreseen,
+            aim,
+            planned_miss,
+            lasting_moment,
+            planned_end,
+            untouched,
+            planned_at,
+        } = self;
+        pass!(tape: outset, slope_before, clock, foreseen, aim, planned_miss, lasting_moment);
+        pass!(tape: planned_end, untouched, planned_at);
+    }
+}
+
+impl<const N: usize> Planner for Controller<N> {
+    fn begin(&mut self, outputs: &mut Outputs) -> Result<()> {
+        *outputs = Outputs::default();
+        self.grasp_in_time(0.0);
+        // How long the host's steps are is not known yet: a ramp might be held far beyond its end.
+        let hold = std::mem::replace(&mut self.outset.hold, Hold::ZeroOrder);
+        let wanted = *self.foreseen.at(0.0);
+        self.plan(0.0, &wanted, wanted.displacement, outputs)?;
+        self.outset.hold = hold;
+        self.write_prediction(&wanted, outputs);
+        Ok(())
+    }
+
+    fn tune(&mut self, parameters: &Parameters) {
+        let others = self.outset.dynamics.tune(&parameters.autopilot);
+        self.outset.resolver.tune(parameters);
+        self.outset.damping.tune(&parameters.ik);
+        // What was planned with was predicted by other laws.
+        self.untouched &= !others;
+    }
+
+    fn step(&mut self, inputs: &Inputs, t: f64, size: f64, outputs: &mut Outputs) -> Result<()> {
+        self.predict(t, size)?;
+        let now = t + size;
+        self.grasp_in_time(now);
+        self.foreseen.take(inputs, t, size);
+        let wanted = *self.foreseen.at(now);
+        if self.clock.is_due() || self.outset.must_brake(&self.clock) {
+            let expected = self.aim.at(self.clock.since_plan - self.clock.horizon).displacement;
+            let miss = self.outset.resolver.followed(wanted.displacement - self.outset.now.end_effector());
+            outputs.late_miss = (miss - self.planned_miss).norm();
+            self.clock.plan(size);
+            self.plan(now, &wanted, expected, outputs)?;
+        }
+        self.write_prediction(&wanted, outputs);
+        Ok(())
+    }
+
+    fn rates(&self, t: f64) -> Rates {
+        let Outset { dynamics, now, .. } = &self.outset;
+        let now = &now.situation;
+        let mut rates = Rates {
+            reference_velocity: self.foreseen.acceleration(t),
+            predicted_end_effector: self.outset.end_effector_velocity(now, now.base()),
+            predicted_velocity: dynamics.at_end(now, &self.slope_before, &Load::NONE).acceleration,
+            ..Rates::default()
+        };
+        rates.predicted_position[..N].copy_from_slice(now.state.rate.as_slice());
+        rates
+    }
+
+    fn check_memory(&self) -> Result<()> {
+        self.outset.dynamics.check_gains()?;
+        self.outset.now.check_memory()?;
+        self.planned_end.check_memory()?;
+        self.outset.damping.check_memory()?;
+        self.clock.check_memory()
+    }
+
+    fn clone_box(&self) -> Box<dyn Planner> {
+        Box::new(self.clone())
+    }
+}

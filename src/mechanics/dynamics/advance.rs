@@ -1,0 +1,253 @@
+//! A step of any length: cut into internal steps at samples of the autopilot, at switching of contact, and
+//! as short as the fastest rates ask for.
+
+use nalgebra::{SVector, Vector3};
+
+use super::law::{Flow, Scene};
+use super::runge_kutta::Internal;
+use super::{Account, Dynamics, Impulse, Load, Loads, Motion, Node, Situation, State, in_inertial_frame};
+use crate::autopilot::AutopilotMode;
+use crate::error::Result;
+use crate::mechanics::planar::{Turn, Vec2, vec2};
+use crate::mechanics::vehicle::Balancer;
+
+/// Longest internal step \[s\]; a millisecond that is not quite one, by rounding, is not cut in two.
+const LONGEST: f64 = 1.05e-3;
+
+/// Longest internal step times the fastest rate of control or turning: order 4 leaves 1e-12 of the
+/// amplitude there.
+pub(super) const RESOLUTION: f64 = 0.01;
+
+/// The same while the system swings on the support with a speed of 1 m/s. There the error in metres counts, which adds
+/// up bounce by bounce; slower swinging stands longer steps, by the order 4 of the method.
+const SUPPORT_RESOLUTION: f64 = 0.005;
+
+/// However slow that is.
+const COARSEST_SUPPORT_RESOLUTION: f64 = 0.02;
+
+/// A base that tumbles drags everything along and adds up errors over its turns: it counts so much more.
+pub(super) const TUMBLING: f64 = 3.0;
+
+/// Most internal steps in one step, which then takes a tenth of a second; more are taken for a mistake.
+pub(super) const MOST_STEPS: f64 = 2e5;
+
+/// So often the turns of links and UAV, sums of small turns, are made to agree with their angles \[1/s\].
+const REFRESHED: f64 = 16.0;
+
+/// An instant this close to a sample of the autopilot is the sample \[s\].
+pub(super) const SAME_INSTANT: f64 = 1e-9;
+
+impl<const N: usize> Dynamics<N> {
+    /// Advances `situation` from time `t`, counted from the start, by `size` \[s\] under the imposed
+    /// `motion` and `loads`, and adds up what `account` asks for.
+    ///
+    /// # Errors
+    /// If the step needs more than 200000 internal steps.
+    pub fn advance(
+        &self,
+        situation: &mut Situation<N>,
+        motion: &Motion<N>,
+        loads: &Loads,
+        t: f64,
+        size: f64,
+        mut account: Account<'_, N>,
+    ) -> Result<Impulse> {
+        // A sample still sees the velocities before the jump of the rates.
+        let mut until_sample = self.sample(&mut situation.state, loads.begin, t);
+        let sample_time = if until_sample < f64::INFINITY { self.autopilot.sample_time } else { f64::INFINITY };
+        let mut flow = situation.flow(self.base);
+        let Situation { state, turn, node } = situation;
+        let (start, momentum) = (state.position, state.momentum);
+        node.move_at(&motion.rate);
+        state.contact = self.touches(&flow, node, state.held);
+        let mut scene = Scene {
+            loads,
+            elapsed: 0.0,
+            held: state.held,
+            contact: state.contact,
+            sampled: state.sampled,
+            motion: *motion,
+        };
+        let turning = self.fastest_turning(motion, size);
+        let mut stuck = false;
+        let mut room = None;
+        while scene.elapsed < size {
+            let left = size - scene.elapsed;
+            let step = account.next(self, node, loads);
+            (step.nodes[0], step.from) = (*node, flow);
+            self.law(&mut step.rates[0], &flow, node, loads.present(scene.elapsed, &mut room), &scene);
+            let longest = self.longest_internal_step(step, turning, scene.contact);
+            let most = MOST_STEPS * if sample_time < longest { sample_time } else { longest };
+            if left > most {
+                let turning = turning + TUMBLING * step.rates[0][2].abs();
+                return Err(self.too_long(size, most, turning, scene.contact));
+            }
+            // A sample at the end belongs to the step that begins there.
+            let piece = if until_sample < left - SAME_INSTANT { until_sample } else { left };
+            let length = if piece > longest { piece / (piece / longest).ceil() } else { piece };
+            let mut covered = length;
+            self.internal_step(step, length, &scene, (&mut flow, node));
+            // Right after switching, rounding must not switch back for ever.
+            let within = if stuck { None } else { self.switches_within(step, (&flow, node), &scene) };
+            if let Some(bracket) = within {
+                covered = self.switching_instant(step, bracket, &scene);
+                self.internal_step(step, covered, &scene, (&mut flow, node));
+                scene.contact = !scene.contact;
+            }
+            stuck = covered == 0.0;
+            account.made(self, node, loads);
+            // The last piece ends the step, whatever the sum of the pieces rounds to.
+            if length == left && within.is_none() {
+                break;
+            }
+            scene.elapsed += covered;
+            scene.motion = motion.after(scene.elapsed);
+            until_sample -= covered;
+            if until_sample <= 0.0 && scene.elapsed < size {
+                self.settle(state, &flow, node);
+                until_sample = self.sample(state, loads.present(scene.elapsed, &mut room), t + scene.elapsed);
+                scene.sampled = state.sampled;
+                (flow[6], flow[7]) = (state.integrals.x, state.integrals.y);
+            }
+        }
+        state.contact = scene.contact;
+        state.position = start + motion.way(size);
+        if refreshed(t) != refreshed(t + size) {
+            node.take(&self.vehicle, &state.position, state.held, &motion.rate_after(size));
+            [flow[8], flow[9]] = Turn::by(flow[2]).cos_sin();
+        }
+        *turn = self.arm_turn(&flow);
+        self.settle(state, &flow, node);
+        state.rate = motion.rate_after(size);
+        let impulse = self.impulse(state, &momentum, &flow, node, loads, size);
+        if let Account::Carried(carried) = account
+            && self.neglects_nothing()
+        {
+            carried.sum = state.momentum.z
+                - momentum.z
+                - impulse.torque
+                - loads.present(0.5 * size, &mut room).base_torque * size;
+        }
+        Ok(impulse)
+    }
+
+    /// What a step of length `size` that began with the momentum `before` gave; on a carriage, writes momentum into
+    /// `state`.
+    pub(super) fn impulse(
+        &self,
+        state: &mut State<N>,
+        before: &Vector3<f64>,
+        flow: &Flow,
+        node: &Node<N>,
+        loads: &Loads,
+        size: f64,
+    ) -> Impulse {
+        let mut impulse = Impulse { thrust: Vec2::zeros(), torque: flow[10], support: flow[11] };
+        if self.on_carriage() {
+            let h = node.matrix.of_base(self.base_velocity(flow, Turn::NONE, node)) + node.arm;
+            impulse.thrust = vec2(0.0, h.linear.y - flow[4]);
+            impulse.torque = h.angular - flow[5];
+            (state.momentum.y, state.momentum.z) = (h.linear.y, h.angular);
+        } else {
+            // What the momentum has gained, and no other force gave.
+            let mut room = None;
+            let load = loads.present(0.5 * size, &mut room);
+            let others = load.base_force + load.tip_force + vec2(0.0, -node.matrix.mass * self.vehicle.gravity);
+            impulse.thrust = (state.momentum - before).xy() - others * size - vec2(0.0, impulse.support);
+        }
+        impulse
+    }
+
+    /// Writes pose, momentum, integrals and velocities into `state`.
+    pub(super) fn settle(&self, state: &mut State<N>, flow: &Flow, node: &Node<N>) {
+        let turn = self.arm_turn(flow);
+        state.pose = Vector3::new(flow[0], flow[1], flow[2]);
+        state.momentum = Vector3::new(flow[3], flow[4], flow[5]);
+        state.integrals = vec2(flow[6], flow[7]);
+        state.velocity = in_inertial_frame(turn, self.base_velocity(flow, turn, node));
+        state.rate = node.rate;
+    }
+
+    /// Takes a sample of a sampled autopilot if it is due at time `t`; how long until the next one \[s\].
+    ///
+    /// A sample sees the integral over the samples before it, by rectangles.
+    pub(super) fn sample(&self, state: &mut State<N>, load: &Load, t: f64) -> f64 {
+        let interval = self.autopilot.sample_time;
+        if self.autopilot.mode != AutopilotMode::Pid || interval == 0.0 {
+            return f64::INFINITY;
+        }
+        if t >= instant(state.samples, interval) - SAME_INSTANT {
+            let error = load.error(state.pose.y, state.pose.z);
+            state.sampled = self.hover_law(error, &state.velocity, state.integrals, load);
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // times are not negative
+            let passed = ((t + SAME_INSTANT) / interval) as u64;
+            let samples = passed.max(state.samples) + 1;
+            // Samples that a long explicit step has left out count with this one.
+            let covered = instant(samples, interval) - instant(state.samples, interval);
+            state.integrals += error * covered;
+            state.samples = samples;
+        }
+        instant(state.samples, interval) - t
+    }
+
+    /// Fastest turning at the rates `rate`, relative to the UAV \[rad/s\].
+    pub(super) fn turning(&self, rate: &SVector<f64, N>) -> f64 {
+        let vehicle = &self.vehicle;
+        let arm = (0..N).map(|i| rate[i].abs() * vehicle.revolute[i]).sum::<f64>();
+        match vehicle.balancer {
+            // Nobody sees a disc turn.
+            Some(Balancer::Element(body)) if body.first != 0.0 => arm.max(rate[N - 1].abs()),
+            _ => arm,
+        }
+    }
+
+    /// Fastest turning in a step of length `size` under the imposed `motion` \[rad/s\].
+    #[inline(never)]
+    fn fastest_turning(&self, motion: &Motion<N>, size: f64) -> f64 {
+        let turning = self.turning(&motion.rate);
+        if motion.is_steady() { turning } else { turning.max(self.turning(&motion.rate_after(size))) }
+    }
+
+    /// The longest internal step that resolves autopilot, support and the `turning` of the links.
+    #[inline]
+    fn longest_internal_step(&self, step: &Internal<N>, turning: f64, contact: bool) -> f64 {
+        let turning = turning + TUMBLING * step.rates[0][2].abs();
+        let fastest = if turning > self.control_rate { turning } else { self.control_rate };
+        let longest = LONGEST.min(RESOLUTION / fastest);
+        if contact { self.longest_on_support(step, longest) } else { longest }
+    }
+
+    /// The longest internal step, at most `longest`, that resolves how the system swings on the support.
+    #[inline(never)]
+    fn longest_on_support(&self, step: &Internal<N>, longest: f64) -> f64 {
+        let (vehicle, Internal { nodes: [node, _], from: flow, rates: [k_1, ..], .. }) = (&self.vehicle, step);
+        let lightness = vehicle.masses(true).lightness;
+        // The support feels the mass of the system and, at a lever, its inertia.
+        let lever = node.posture.payload.x;
+        let mobility = lightness + lever * lever / vehicle.uav_inertia;
+        let swinging = (self.support.stiffness * mobility).sqrt();
+        let gap_rate = self.gap_rate(self.arm_turn(flow), node, &k_1.fixed_rows::<3>(0).into());
+        let speed = gap_rate.abs() + k_1[4].abs() * lightness / swinging;
+        // Mostly the step is short enough: that is seen without the roots below, which take a tenth of a step.
+        let resolved = longest * swinging;
+        let square = resolved * resolved;
+        let fine = SUPPORT_RESOLUTION * SUPPORT_RESOLUTION;
+        if resolved <= COARSEST_SUPPORT_RESOLUTION && speed * (square * square) <= fine * fine {
+            return longest;
+        }
+        let resolution = (SUPPORT_RESOLUTION / speed.sqrt().sqrt()).min(COARSEST_SUPPORT_RESOLUTION);
+        longest.min(resolution / swinging)
+    }
+}
+
+/// How often turns have been refreshed up to time `t` \[s\].
+#[allow(clippy::cast_possible_truncation)] // saturates in late times that nobody reaches
+pub(super) fn refreshed(t: f64) -> i64 {
+    (t * REFRESHED) as i64
+}
+
+/// When the autopilot takes its sample with this number, counted from 0 \[s\].
+#[allow(clippy::cast_precision_loss)] // 2^53 samples take centuries
+fn instant(number: u64, interval: f64) -> f64 {
+    number as f64 * interval
+}

@@ -1,0 +1,293 @@
+//! The right-hand side: rates of pose, momentum and autopilot integrals.
+
+use std::ops::Range;
+
+use nalgebra::{SVector, Vector3};
+
+use super::{Dynamics, Load, Loads, Motion, Situation, State, in_inertial_frame};
+use crate::autopilot::AutopilotMode;
+use crate::mechanics::kinematics::{Displacement, Posture};
+use crate::mechanics::momentum::{MomentumMatrix, Twist};
+use crate::mechanics::planar::{Turn, Vec2, cross, perp, vec2};
+use crate::mechanics::vehicle::Vehicle;
+use crate::memory;
+use crate::parameters::BaseModel;
+
+/// x, y, roll; p_x, p_y, K; integrals of altitude and roll error; cosine and sine of the roll; impulses of the
+/// rotors' torque and of the support force.
+///
+/// That the turn is integrated with the rest, and made good after every step ([`turned`]), spares the stages
+/// a third of their time. On an ideal carriage p_y and K are no states: they follow from the rates. There these
+/// entries collect the impulses of all but the carriage, so that p_y and K less the entries is what the
+/// carriage gave.
+pub(super) type Flow = SVector<f64, 12>;
+
+/// The entries on which its rates depend: all but x and the impulses.
+pub(super) const SEEN: Range<usize> = 1..10;
+
+/// The turn of the UAV.
+#[inline]
+fn uav_turn(y: &Flow) -> Turn {
+    Turn::with(y[8], y[9])
+}
+
+/// Makes the turn in `flow` agree with the roll, given that it did in the flow `before`.
+#[inline]
+pub(super) fn turned(flow: &mut Flow, before: &Flow) {
+    [flow[8], flow[9]] = uav_turn(before).then(Turn::by_small(flow[2] - before[2])).cos_sin();
+}
+
+/// The arm at one instant, in the UAV frame.
+#[derive(Debug, Clone, Copy)]
+pub struct Node<const N: usize> {
+    /// Where everything is.
+    pub posture: Posture<N>,
+    /// H_b and H_m.
+    pub matrix: MomentumMatrix<N>,
+    /// Rates of the coordinates \[rad/s, m/s\].
+    pub rate: SVector<f64, N>,
+    /// H_m q_dot.
+    pub arm: Twist,
+}
+
+memory!(Node<N> { posture, matrix, rate, arm });
+
+impl<const N: usize> Node<N> {
+    /// The arm with the coordinates `q` \[rad, m\], moving at `rate`.
+    #[must_use]
+    pub fn new(vehicle: &Vehicle<N>, q: &SVector<f64, N>, held: bool, rate: &SVector<f64, N>) -> Self {
+        let (posture, matrix) = (Posture::NOWHERE, MomentumMatrix::NOTHING);
+        let mut node = Self { posture, matrix, rate: *rate, arm: Twist::ZERO };
+        node.take(vehicle, q, held, rate);
+        node
+    }
+
+    /// Becomes the arm with the coordinates `q` \[rad, m\], moving at `rate`.
+    #[inline(never)]
+    pub fn take(&mut self, vehicle: &Vehicle<N>, q: &SVector<f64, N>, held: bool, rate: &SVector<f64, N>) {
+        self.posture.take(vehicle, q);
+        self.matrix.sum_up(vehicle, &self.posture, held);
+        self.move_at(rate);
+    }
+
+    /// Becomes the arm that is `way` from the node `from`, moving at `rate`.
+    ///
+    /// In place: returned by value, a node is copied as often as it is passed on, which takes longer than its sums.
+    #[inline]
+    pub fn follow(
+        &mut self,
+        vehicle: &Vehicle<N>,
+        from: &Self,
+        way: &Displacement<N>,
+        held: bool,
+        rate: &SVector<f64, N>,
+    ) {
+        self.posture.follow(vehicle, &from.posture, way);
+        self.matrix.sum_up(vehicle, &self.posture, held);
+        self.move_at(rate);
+    }
+
+    /// The same arm, moving at `rate`.
+    #[inline(never)]
+    pub fn move_at(&mut self, rate: &SVector<f64, N>) {
+        self.arm = self.matrix.sum_of_rates(rate);
+        self.rate = *rate;
+    }
+
+    /// Velocity of a point of the last link at `place`, while the base moves with `v`; UAV frame.
+    #[must_use]
+    pub fn velocity_at(&self, vehicle: &Vehicle<N>, place: Vec2, v: Twist) -> Vec2 {
+        (0..N).fold(v.linear + perp(place) * v.angular, |velocity, i| {
+            velocity + perp(place - self.posture.joint[i]) * (self.rate[i] * vehicle.revolute[i])
+        })
+    }
+}
+
+/// The UAV at one instant, as what it carries feels it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Carrier {
+    /// The turn of the arm's frame.
+    pub turn: Turn,
+    /// Its motion, in the axes of that frame.
+    pub motion: Twist,
+    /// Force of the support on the payload, upwards \[N\].
+    pub support: f64,
+}
+
+/// What stays the same during an internal step.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Scene<'a, const N: usize> {
+    /// Loads from outside.
+    pub loads: &'a Loads<'a>,
+    /// When the internal step begins, from the beginning of these loads \[s\].
+    pub elapsed: f64,
+    /// Whether the payload is held.
+    pub held: bool,
+    /// Whether the support pushes on it.
+    pub contact: bool,
+    /// Thrust and torque of a sampled autopilot.
+    pub sampled: Vec2,
+    /// The imposed rates, from the beginning of the internal step on.
+    pub motion: Motion<N>,
+}
+
+impl<const N: usize> Scene<'_, N> {
+    /// On which side of the unloaded support the payload stays while contact does not switch: +1 above.
+    pub fn side(&self) -> f64 {
+        if self.contact { -1.0 } else { 1.0 }
+    }
+}
+
+impl<const N: usize> Dynamics<N> {
+    /// The turn of the arm's frame.
+    #[inline]
+    pub(super) fn arm_turn(&self, y: &Flow) -> Turn {
+        if self.base.turns_arm() { uav_turn(y) } else { Turn::NONE }
+    }
+
+    /// Motion of the base with the momentum `h`, of which `arm` is the arm's; axes of the UAV frame.
+    #[inline]
+    #[must_use]
+    pub fn base_motion(&self, node: &Node<N>, h: Twist, arm: Twist) -> Twist {
+        self.base.velocity(&node.matrix, self.vehicle.uav_inertia, h, arm)
+    }
+
+    /// Motion of the base in the axes of the UAV frame: what momentum the arm leaves, divided by inertia.
+    #[inline]
+    pub(super) fn base_velocity(&self, y: &Flow, turn: Turn, node: &Node<N>) -> Twist {
+        let h = Twist { linear: turn.undo(vec2(y[3], y[4])), angular: y[5] };
+        self.base_motion(node, h, node.arm)
+    }
+
+    /// Thrust \[N\] and torque \[N m\] by the hover law, from errors of altitude and roll, their integrals, and the velocity
+    /// in the inertial frame.
+    #[inline]
+    pub(super) fn hover_law(&self, error: Vec2, velocity: &Vector3<f64>, integrals: Vec2, load: &Load) -> Vec2 {
+        let (altitude, roll) = (&self.autopilot.altitude, &self.autopilot.roll);
+        let feed_forward = vec2(self.hover_thrust + load.thrust_feedforward, 0.0);
+        feed_forward
+            - vec2(
+                altitude.kp * error.x + altitude.kd * velocity.y + altitude.ki * integrals.x,
+                roll.kp * error.y + roll.kd * velocity.z + roll.ki * integrals.y,
+            )
+    }
+
+    /// Thrust \[N\] and torque \[N m\], without what holds an ideal base, and the errors that a continuous autopilot
+    /// integrates.
+    #[inline]
+    pub(super) fn control(&self, y: &Flow, velocity: &Vector3<f64>, load: &Load, scene: &Scene<'_, N>) -> (Vec2, Vec2) {
+        if self.continuous {
+            let error = load.error(y[1], y[2]);
+            return (self.hover_law(error, velocity, vec2(y[6], y[7]), load), error);
+        }
+        let control = match self.autopilot.mode {
+            _ if self.on_carriage() => Vec2::zeros(),
+            AutopilotMode::Pid => scene.sampled,
+            AutopilotMode::External => vec2(load.thrust, load.torque),
+            AutopilotMode::Ideal => Vec2::zeros(),
+        };
+        (control, Vec2::zeros())
+    }
+
+    /// Rates of the flow, written to `k`.
+    #[inline(never)]
+    pub(super) fn law(&self, k: &mut Flow, y: &Flow, node: &Node<N>, load: &Load, scene: &Scene<'_, N>) {
+        // The compiler writes it twice: with a model that it knows, it takes a fifth less instructions.
+        if self.base == BaseModel::Full {
+            self.written(k, y, node, self.base_velocity(y, uav_turn(y), node), load, scene);
+        } else {
+            self.reduced_law(k, y, node, load, scene);
+        }
+    }
+
+    /// The same for a base that is not [`BaseModel::Full`]. Out of the way: without any other call, the full model
+    /// needs no registers saved.
+    #[inline(never)]
+    fn reduced_law(&self, k: &mut Flow, y: &Flow, node: &Node<N>, load: &Load, scene: &Scene<'_, N>) {
+        let h = Twist { linear: vec2(y[3], y[4]), angular: y[5] };
+        let v = self.base.reduced_velocity(node.matrix.mass, self.vehicle.uav_inertia, h, h - node.arm);
+        self.law_at(k, y, node, v, load, scene);
+    }
+
+    /// [`Dynamics::law`] for a base that moves with `v`, axes of the UAV frame.
+    #[inline(never)]
+    pub(super) fn law_at(&self, k: &mut Flow, y: &Flow, node: &Node<N>, v: Twist, load: &Load, scene: &Scene<'_, N>) {
+        self.written(k, y, node, v, load, scene);
+    }
+
+    #[inline(always)]
+    pub(super) fn written(&self, k: &mut Flow, y: &Flow, node: &Node<N>, v: Twist, load: &Load, scene: &Scene<'_, N>) {
+        let turn = self.arm_turn(y);
+        let velocity = in_inertial_frame(turn, v);
+        let (mut control, error) = self.control(y, &velocity, load, scene);
+        let support = self.support_force(y, turn, node, scene);
+
+        let weight = vec2(0.0, -node.matrix.mass * self.vehicle.gravity);
+        let others = load.base_force + load.tip_force + vec2(0.0, support) + weight;
+        if self.base.thrust_carries_all() {
+            control.x = -others.y;
+        }
+        let force = uav_turn(y).up() * control.x + others;
+        let moment = control.y + load.base_torque + self.carried_moment(turn, node, load, support);
+        let angular = moment - self.base.transport(velocity.xy(), vec2(y[3], y[4]), node.arm);
+
+        let turning = vec2(-y[9], y[8]) * velocity.z;
+        *k = Flow::from([
+            velocity.x, velocity.y, velocity.z, force.x, force.y, angular, error.x, error.y, turning.x, turning.y,
+            control.y, support,
+        ]);
+    }
+
+    /// The UAV with the flow `y` and its rates `k`, as [`Dynamics::law`] gives them.
+    #[inline]
+    pub(super) fn carrier(&self, y: &Flow, k: &Flow) -> Carrier {
+        let turn = self.arm_turn(y);
+        Carrier { turn, motion: Twist { linear: turn.undo(vec2(k[0], k[1])), angular: k[2] }, support: k[11] }
+    }
+
+    /// Moment of weight and outer loads on what the UAV carries, about the UAV's centre of mass \[N m\].
+    #[inline]
+    pub(super) fn carried_moment(&self, turn: Turn, node: &Node<N>, load: &Load, support: f64) -> f64 {
+        let mut moment = -turn.apply(node.matrix.first).x * self.vehicle.gravity;
+        if load.pushes_arm() || support != 0.0 {
+            let posture = &node.posture;
+            moment += load.tip_torque
+                + cross(turn.apply(posture.end_effector), load.tip_force)
+                + turn.apply(posture.payload).x * support;
+        }
+        moment
+    }
+
+    /// Force of the support on the payload, upwards \[N\].
+    #[inline]
+    pub(super) fn support_force(&self, y: &Flow, turn: Turn, node: &Node<N>, scene: &Scene<'_, N>) -> f64 {
+        if scene.contact { -self.support.stiffness * self.gap(y, turn, node) } else { 0.0 }
+    }
+
+    /// Height of the payload above the unloaded support \[m\].
+    pub(super) fn gap(&self, y: &Flow, turn: Turn, node: &Node<N>) -> f64 {
+        y[1] + turn.apply(node.posture.payload).y - self.support.height
+    }
+
+    /// How fast the payload leaves the support while the UAV moves with `velocity`, inertial frame \[m/s\].
+    pub(super) fn gap_rate(&self, turn: Turn, node: &Node<N>, velocity: &Vector3<f64>) -> f64 {
+        let v = Twist { linear: turn.undo(velocity.xy()), angular: velocity.z };
+        self.velocity_at(node, turn, node.posture.payload, v).y
+    }
+
+    /// Velocity of a point of the last link at `place` (UAV frame) \[m/s\], inertial frame, while the base moves with `v`,
+    /// axes of the arm's frame, which is turned by `turn`.
+    #[must_use]
+    pub fn velocity_at(&self, node: &Node<N>, turn: Turn, place: Vec2, v: Twist) -> Vec2 {
+        turn.apply(node.velocity_at(&self.vehicle, place, self.base.carried(v)))
+    }
+}
+
+impl<const N: usize> Situation<N> {
+    /// The part of the state that the laws of motion integrate, no impulses so far.
+    pub(super) fn flow(&self, base: BaseModel) -> Flow {
+        let State { pose, momentum: h, integrals, .. } = &self.state;
+        let [cos, sin] = if base.turns_arm() { self.turn } else { Turn::by(pose.z) }.cos_sin();
+        Flow::from([pose.x, pose.y, pose.z, h.x, h.y, h.z, integrals.x, integrals.y, cos, sin, 0.0, 0.0])
+    }
+}
