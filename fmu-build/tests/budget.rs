@@ -36,7 +36,7 @@ fn the_step_of_the_thesis_is_of_order_one() {
     }
 }
 
-/// To its end, as README and documentation say it.
+/// To its end, as the documentation says it.
 #[test]
 fn an_exact_step_is_exact_at_the_samples() {
     let (pair, scenario) = (common::pair(), find("4.3b").unwrap());

@@ -14,6 +14,8 @@ from conftest import FULL, TARGET, program
 from documents import MISSING, NUMBER, Block, Hosts, MissingError, Part, Quote, Sizes, Times
 
 README, THESIS, DAMPING = "README.md", "docs/thesis.md", "docs/damping.md"
+STEPS_PAGE, SPEED = "docs/co-simulation.md", "docs/performance.md"
+COMPATIBILITY = "docs/compatibility.md"
 CLAIMS, WHICH_STEP = "fmu-build/src/claims/thesis.rs", "fmu-build/src/text/which_step.md"
 OUT = TARGET / "documents"
 
@@ -157,7 +159,7 @@ LAWS_4_4B = "joint[*].acceleration_limit=60,20,20", "counterweight.time_constant
 SLOW_LAW = "counterweight.time_constant=0.4"
 
 PARTS: list[Part] = [
-    # The program prints these words into the table of the README: they go first.
+    # The program prints these words into the table of the thesis: they go first.
     Quote(
         CLAIMS,
         "but to {:.2f} mm, and to {:.1f} mm if the path takes 3 s",
@@ -176,12 +178,12 @@ PARTS: list[Part] = [
         ),
     ),
     Block(README, "cargo run --release", main_command),
-    Block(README, "thesis --markdown", command("thesis", "--markdown")),
-    Block(README, "budget --markdown", command("budget", "--markdown")),
+    Block(THESIS, "thesis --markdown", command("thesis", "--markdown")),
+    Block(STEPS_PAGE, "budget --markdown", command("budget", "--markdown")),
     Block(WHICH_STEP, "budget --markdown", command("budget", "--markdown"), whole=True),
-    Sizes(README, "build --all-platforms", sizes),
-    Hosts(README, "tests/python/hosts.py", table_of_hosts),
-    Times(README, "fmu-build/benches/peers/run --rounds 5", peers),
+    Sizes(COMPATIBILITY, "build --all-platforms", sizes),
+    Hosts(COMPATIBILITY, "tests/python/hosts.py", table_of_hosts),
+    Times(SPEED, "fmu-build/benches/peers/run --rounds 5", peers),
     *(
         Block(
             DAMPING,

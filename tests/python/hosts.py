@@ -2,7 +2,7 @@
 
     source tests/environment.sh && "$python" tests/python/hosts.py
 
-prints the table of the README: to how many digits do the numbers agree? What is not there is named
+prints the table of docs/compatibility.md: to how many digits do the numbers agree? What is not there is named
 as skipped.
 """
 
