@@ -2,8 +2,8 @@
 
     source tests/environment.sh && "$python" tests/python/hosts.py
 
-prints the table of docs/compatibility.md: to how many digits do the numbers agree? What is not there is named
-as skipped.
+prints the table of docs/compatibility.md: to how many digits do the numbers agree? What is not
+there is named as skipped.
 """
 
 from __future__ import annotations
