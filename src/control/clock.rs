@@ -58,8 +58,8 @@ impl Clock {
         self.past = self.since_plan;
         self.since_plan = 0.0;
         // As many steps of this size as will pass until the next plan.
-        let steps = ((self.latest() - self.expected) / size).floor() + 1.0;
-        let fitting = size * steps.max(1.0);
+        let room = self.latest() - self.expected;
+        let fitting = if room < size { size } else { size * ((room / size).floor() + 1.0) };
         let forgotten = FORGETTING * self.past;
         self.horizon = fitting.max(self.past).max(self.horizon - forgotten);
         self.expected = size.max(self.expected - forgotten);

@@ -118,11 +118,11 @@ impl<const N: usize> Outset<N> {
     /// once more without it. Writes the prediction at its `end`.
     fn plan_path_first(&self, way: Way<'_>, end: &mut Prediction<N>) -> Result<Plan<N>> {
         let plan = self.plan_exact(way, end)?;
-        let left = self.missing(&way.target, way.clock.horizon, &end.situation).norm();
-        if left <= ON_PATH || !self.resolver.has_second_task() {
+        let left = self.missing(&way.target, way.clock.horizon, &end.situation);
+        if left.norm_squared() <= ON_PATH * ON_PATH || !self.resolver.has_second_task() {
             return Ok(plan);
         }
-        self.plan_path_alone(way, end, (plan, left))
+        self.plan_path_alone(way, end, (plan, left.norm()))
     }
 
     /// The better one of the plan without second task and of another one, which leaves the end effector as far off the
@@ -305,8 +305,8 @@ fn extent<const N: usize>(change: &Motion<N>, horizon: f64) -> f64 {
     change.way(horizon).norm() + change.rate_after(horizon).norm() * horizon
 }
 
-/// The way `way`, shortened to `most` \[m\] where it is longer. It divides by no 0: a processor takes 100 ns to raise a flag that
-/// the host has not raised.
+/// The way `way`, shortened to `most` \[m\] where it is longer. Mostly it is not, and then takes neither root nor division; nor
+/// is there ever a division by 0, whose flag takes a processor 100 ns to raise if the host has not raised it.
 fn capped(way: Vec2, most: f64) -> Vec2 {
-    way * (most / way.norm().max(most).max(f64::MIN_POSITIVE))
+    way * if way.norm_squared() <= most * most { 1.0 } else { most / way.norm() }
 }

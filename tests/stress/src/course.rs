@@ -41,7 +41,8 @@ impl Course {
         let [x, y] = seen.miss();
         let y = if case.parameters.ik.path_axes == PathAxes::Both { y } else { 0.0 };
         self.rate = self.rate.max(rate);
-        self.roll = self.roll.max(seen.pose()[2].abs());
+        // A prediction that leaves things out may believe that a UAV hovers which has turned over.
+        self.roll = self.roll.max(seen.pose()[2].abs()).max(seen.observed()[2].abs());
         // The first plan is made before any step is known.
         if now.time > now.size {
             self.miss = self.miss.max((x * x + y * y).sqrt());
