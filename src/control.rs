@@ -9,8 +9,8 @@ mod external;
 mod foreseen;
 mod limits;
 mod method;
-mod outset;
 mod plan;
+mod plan_context;
 mod planner;
 mod prediction;
 pub mod qp;
@@ -148,7 +148,7 @@ impl Outputs {
 
 /// How fast outputs change whose rate is no output itself; predictions: left limits.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Rates {
+pub struct OutputDerivatives {
     /// Wanted acceleration of the end effector now \[m/s2\].
     pub reference_velocity: Vec2,
     /// Predicted velocity of the end effector \[m/s\].
@@ -198,7 +198,7 @@ pub trait Planner: Memory + Send {
     fn step(&mut self, inputs: &Inputs, t: f64, size: f64, outputs: &mut Outputs) -> Result<()>;
 
     /// How fast the outputs at time `t`, the present one counted from the start, change.
-    fn rates(&self, t: f64) -> Rates;
+    fn output_derivatives(&self, t: f64) -> OutputDerivatives;
 
     /// Whether what was taken off a tape can be the memory of a run.
     ///

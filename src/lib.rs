@@ -16,6 +16,7 @@
 //! plant        the multibody system        control      the inverse kinematics, with its quadratic program
 //! fmi          co-simulation units of any model, by version of the standard
 //! units        plant and controller as such units: their variables
+//! coupling     both of them, or any others, in the hands of a master
 //! scenarios    named runs, and the files that hold them
 //! ```
 //!
@@ -26,6 +27,7 @@
 pub mod autopilot;
 pub mod bytes;
 pub mod control;
+pub mod coupling;
 pub mod error;
 pub mod fmi;
 pub mod mechanics;

@@ -102,7 +102,7 @@ impl Outputs {
 /// How fast those observations change that are not means over the step and whose rate is no observation
 /// itself: left limits, per second; 0 before the first step.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Rates {
+pub struct OutputDerivatives {
     /// Accelerations of the coordinates \[rad/s2, m/s2\].
     pub coordinates: [f64; MAX_COORDINATES],
     /// Acceleration of the end effector \[m/s2\].
@@ -149,7 +149,7 @@ pub trait Simulation: Memory + Send {
     fn observe(&self, time: f64, outputs: &mut Outputs) -> Result<()>;
 
     /// How fast the outputs of the finished step change at its end.
-    fn rates(&self) -> Rates;
+    fn output_derivatives(&self) -> OutputDerivatives;
 
     /// Whether what was taken off a tape can be the memory of a run.
     ///

@@ -1,7 +1,7 @@
 //! The wanted motion of the end effector, relative to where it starts.
 
 use crate::error::{Error, Result};
-use crate::mechanics::planar::{Turn, Vec2, vec2};
+use crate::mechanics::planar::{Rotation, Vec2, vec2};
 use crate::memory;
 use crate::options;
 
@@ -13,7 +13,7 @@ options! {
     pub enum ReferenceKind {
         #[doc = " A path of straight legs, which add up where they overlap in time."]
         Path = "path",
-        #[doc = " One counter-clockwise turn on a circle through the starting point."]
+        #[doc = " One counter-clockwise rotation on a circle through the starting point."]
         Circle = "circle",
         #[doc = " Position, velocity and acceleration come as inputs."]
         External = "external",
@@ -111,7 +111,7 @@ impl Profile {
         match self {
             Self::Trapezoidal => [0.5 * t * share, share, steepness],
             Self::Smooth => {
-                let [cos, sin] = Turn::by(TURN * share).cos_sin();
+                let [cos, sin] = Rotation::by(TURN * share).cos_sin();
                 [
                     0.5 * t * share - duration * (PER_TURN * PER_TURN) * (1.0 - cos),
                     share - sin * PER_TURN,
@@ -223,12 +223,12 @@ impl Reference {
                 self.legs.iter().for_each(|leg| leg.add(t, target));
             }
             ReferenceKind::Circle => {
-                let turn = std::f64::consts::TAU;
+                let rotation = std::f64::consts::TAU;
                 let whole = Leg { duration: self.circle.duration, ramp: 0.5 * self.circle.duration, ..Leg::NONE };
-                let [angle, rate, acceleration] = whole.progress(t).map(|share| turn * share);
+                let [angle, rate, acceleration] = whole.progress(t).map(|share| rotation * share);
                 let radius = 0.5 * self.circle.diameter;
-                let [cos_0, sin_0] = Turn::by(self.circle.start_angle).cos_sin();
-                let [cos, sin] = Turn::by(self.circle.start_angle + angle).cos_sin();
+                let [cos_0, sin_0] = Rotation::by(self.circle.start_angle).cos_sin();
+                let [cos, sin] = Rotation::by(self.circle.start_angle + angle).cos_sin();
                 target.displacement += radius * vec2(cos - cos_0, sin - sin_0);
                 target.velocity = radius * rate * vec2(-sin, cos);
                 target.acceleration = radius * (acceleration * vec2(-sin, cos) - rate * rate * vec2(cos, sin));

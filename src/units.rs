@@ -5,7 +5,7 @@ pub mod plant;
 mod start;
 
 use crate::parameters::{Balance, Resolution};
-use crate::variables::unit::{self, Unit};
+use crate::variables::unit::{self, PhysicalUnit};
 use crate::variables::{Bounds, Causality, Table, Variability};
 
 /// Version of names, meanings and order of the variables; part of every unit's identity.
@@ -37,7 +37,7 @@ struct Balancing {
     /// Last part of the name of that.
     effort: &'static str,
     /// Of position, rate, acceleration and effort.
-    units: [&'static Unit; 4],
+    units: [&'static PhysicalUnit; 4],
 }
 
 impl Balancing {

@@ -8,7 +8,7 @@ pub mod options;
 pub mod unit;
 
 use crate::variables::options::Choice;
-use crate::variables::unit::Unit;
+use crate::variables::unit::PhysicalUnit;
 
 /// The part a variable plays for whoever connects the unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -85,8 +85,8 @@ impl std::fmt::Display for Bounds {
 pub enum Kind<D> {
     /// A real number in SI units.
     Real {
-        /// Unit, with the unit in which hosts should display it.
-        unit: &'static Unit,
+        /// PhysicalUnit, with the unit in which hosts should display it.
+        unit: &'static PhysicalUnit,
         /// Admissible values.
         bounds: Bounds,
         /// The way to the value.
@@ -297,7 +297,7 @@ impl<D> Group<'_, D> {
     pub fn real(
         &mut self,
         name: impl Into<String>,
-        unit: &'static Unit,
+        unit: &'static PhysicalUnit,
         bounds: Bounds,
         description: impl Into<String>,
         at: fn(&mut D, usize) -> &mut f64,

@@ -11,7 +11,7 @@ use proptest::prelude::*;
 use uam::for_coordinates;
 use uam::mechanics::kinematics::Posture;
 use uam::mechanics::momentum::{MomentumMatrix, Twist, inertial_load, outboard_drift, outboard_momentum};
-use uam::mechanics::planar::Turn;
+use uam::mechanics::planar::Rotation;
 use uam::mechanics::vehicle::Vehicle;
 use uam::{Parameters, Structure};
 
@@ -39,7 +39,7 @@ fn case(seed: u64, held: bool) -> Case {
 /// Base velocity in the axes of the UAV frame.
 fn base_twist(case: &Case) -> Twist {
     let v = case.speed.pose;
-    Twist { linear: Turn::by(case.at.pose.z).undo(v.xy()), angular: v.z }
+    Twist { linear: Rotation::by(case.at.pose.z).undo(v.xy()), angular: v.z }
 }
 
 fn prepare<const N: usize>(
@@ -61,7 +61,7 @@ fn library(case: &Case) -> uam::Result<(Vec<f64>, Vec<f64>)> {
         let rate = SVector::<f64, N>::from_fn(|i, _| speed.q[i]);
         let v = base_twist(case);
         let h = matrix.of_base(v) + matrix.of_rates(&rate);
-        let p = Turn::by(at.pose.z).apply(h.linear);
+        let p = Rotation::by(at.pose.z).apply(h.linear);
         // v = H_b^-1 h + sum of reactions.
         let back = matrix.columns.map(|column| matrix.base_response(column * -1.0)).iter().zip(rate.iter())
             .fold(matrix.base_response(h), |sum, (reaction, rate)| sum + *reaction * *rate);
@@ -90,7 +90,7 @@ fn library_inertial_load(case: &Case, slope: &[f64]) -> uam::Result<[f64; 3]> {
         let rate = SVector::<f64, N>::from_fn(|i, _| speed.q[i]);
         let slope = SVector::<f64, N>::from_fn(|i, _| slope[i]);
         let load = inertial_load(&vehicle, &posture, *held, speed.pose.z, &rate, &slope);
-        let force = Turn::by(at.pose.z).apply(load.linear);
+        let force = Rotation::by(at.pose.z).apply(load.linear);
         Ok([force.x, force.y, load.angular])
     })
 }

@@ -45,7 +45,7 @@ fn derivatives_of_the_prediction_are_those_of_its_outputs() {
             controller.step(&inputs, f64::from(k) * STEP, STEP, &mut outputs).unwrap();
             seen.push((outputs.predicted_end_effector.into(), outputs.predicted_velocity.into()));
         }
-        let rates = controller.rates(2280.0 * STEP);
+        let rates = controller.output_derivatives(2280.0 * STEP);
         let last: [_; 3] = std::array::from_fn(|i| seen[seen.len() - 3 + i]);
         let tip = difference(last.map(|(tip, _)| tip));
         let velocity = difference(last.map(|(_, velocity)| velocity));

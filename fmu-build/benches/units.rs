@@ -10,7 +10,7 @@ use std::sync::LazyLock;
 
 use divan::Bencher;
 use divan::counter::ItemsCount;
-use fmu_build::coupling::{Coupling, Order, Pair, Schedule};
+use fmu_build::coupling::{Pair, Schedule};
 use fmu_build::fmu::{Causality, Fmu, Instance, Selection, Value, Values};
 use fmu_build::{BuildOptions, Built, build};
 use uam::Structure;
@@ -185,7 +185,7 @@ fn coupled_in_threads(bencher: Bencher<'_, '_>) {
     let pair = pair();
     let schedule = Schedule::new(0.0, f64::from(DURATION), STEP).unwrap();
     bencher.counter(ItemsCount::new(DURATION)).bench(|| {
-        Coupling::new(&pair).unwrap().run(&schedule, Order::Parallel, &mut |_, _, _| Ok(())).unwrap();
+        pair.couple().unwrap().run(&schedule, &mut |_, _, _| Ok(())).unwrap();
     });
 }
 
@@ -195,7 +195,7 @@ fn run(bencher: Bencher<'_, '_>, discretization: Discretization, resolution: Res
     bencher
         .counter(ItemsCount::new(DURATION))
         .with_inputs(|| {
-            let mut coupling = Coupling::new(&pair).unwrap();
+            let mut coupling = pair.couple().unwrap();
             let choices = [("ik.discretization", discretization.number()), ("ik.resolution", resolution.number())];
             for (name, number) in choices {
                 coupling.controller.set_value(name, Value::Integer(number)).unwrap();
@@ -203,6 +203,6 @@ fn run(bencher: Bencher<'_, '_>, discretization: Discretization, resolution: Res
             coupling
         })
         .bench_local_values(|mut coupling| {
-            coupling.run(&schedule, Order::Parallel, &mut |_, _, _| Ok(())).unwrap();
+            coupling.run(&schedule, &mut |_, _, _| Ok(())).unwrap();
         });
 }

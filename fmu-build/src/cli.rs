@@ -185,9 +185,6 @@ pub struct SimulateArguments {
     /// interval, with errors near rounding.
     #[arg(long, value_name = "NAME", value_parser = discretizations())]
     pub discretization: Option<Discretization>,
-    /// Let the plant step first and the controller after it, instead of both in parallel
-    #[arg(long)]
-    pub sequential: bool,
     /// Write every output of both units to the csv, not only those in the report
     #[arg(long)]
     pub all_outputs: bool,

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::io;
 
 use uam::fmi::v2::logger::CATEGORIES;
-use uam::variables::unit::Unit;
+use uam::variables::unit::PhysicalUnit;
 use uam::variables::{Causality, Variability};
 
 use crate::error::Result;
@@ -51,7 +51,7 @@ pub fn model_description(interface: &Interface) -> Result<String> {
     })
 }
 
-fn write_units(xml: &mut Xml, units: &[&Unit]) -> io::Result<()> {
+fn write_units(xml: &mut Xml, units: &[&PhysicalUnit]) -> io::Result<()> {
     xml::list(xml, "UnitDefinitions", units, |xml, unit| {
         xml.create_element("Unit").with_attribute(("name", unit.name)).holding(|xml| {
             xml.create_element("BaseUnit").with_attributes(xml::base_exponents(unit)).empty()?;

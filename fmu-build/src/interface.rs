@@ -3,7 +3,7 @@
 use uam::fmi::v2::Capabilities;
 use uam::fmi::{Model, Naming, start_file};
 use uam::variables::options::Item;
-use uam::variables::unit::Unit;
+use uam::variables::unit::PhysicalUnit;
 use uam::variables::{self, Bounds, Causality, Kind, Variability};
 use uam::{Parameters, Structure};
 
@@ -56,8 +56,8 @@ pub struct Variable {
 pub enum Value {
     /// A real number.
     Real {
-        /// Unit, with the unit for display.
-        unit: &'static Unit,
+        /// PhysicalUnit, with the unit for display.
+        unit: &'static PhysicalUnit,
         /// Admissible values.
         bounds: Bounds,
         /// Start value.
@@ -163,7 +163,7 @@ impl Interface {
 
     /// The units in use, each once, in order of first use.
     #[must_use]
-    pub fn units(&self) -> Vec<&'static Unit> {
+    pub fn units(&self) -> Vec<&'static PhysicalUnit> {
         units_of(&self.variables)
     }
 
@@ -233,8 +233,8 @@ impl Value {
 }
 
 /// The units of these variables, each once, in order of first use.
-pub fn units_of<'a>(variables: impl IntoIterator<Item = &'a Variable>) -> Vec<&'static Unit> {
-    let mut found: Vec<&'static Unit> = Vec::new();
+pub fn units_of<'a>(variables: impl IntoIterator<Item = &'a Variable>) -> Vec<&'static PhysicalUnit> {
+    let mut found: Vec<&'static PhysicalUnit> = Vec::new();
     for variable in variables {
         if let Value::Real { unit, .. } = variable.value
             && !found.iter().any(|other| other.name == unit.name)

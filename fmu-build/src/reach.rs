@@ -19,7 +19,7 @@ pub const STRIDE: f64 = 0.01;
 /// How far the result may be from the edge \[m\].
 pub const PRECISION: f64 = 1e-3;
 /// No arm of the catalogue is longer \[m\].
-pub const LONGEST: f64 = 0.5;
+pub const FARTHEST: f64 = 0.5;
 /// A moment on the UAV that is never larger than this counts as balanced: the order of what the thesis has \[N m\].
 pub const BALANCED: f64 = 0.2;
 
@@ -129,7 +129,7 @@ pub fn enlarged(scenario: &Scenario, way: f64) -> uam::Result<Scenario> {
 pub fn reach<E>(mut run: impl FnMut(f64) -> Result<Trial, E>) -> Result<Reach, E> {
     let mut trials: Vec<Trial> = Vec::new();
     let mut way = STRIDE;
-    while trials.last().is_none_or(|trial| trial.followed) && way < LONGEST {
+    while trials.last().is_none_or(|trial| trial.followed) && way < FARTHEST {
         trials.push(run(way)?);
         way += STRIDE;
     }

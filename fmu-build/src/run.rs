@@ -5,7 +5,9 @@ use std::time::{Duration, Instant};
 
 use uam::scenarios::Scenario;
 
-use crate::coupling::{Coupling, Error, Order, Pair, Schedule};
+use uam::coupling;
+
+use crate::coupling::{Coupling, Error, Pair, Schedule, configure};
 use crate::design;
 use crate::record::{Names, Recorder, Recording};
 
@@ -49,15 +51,14 @@ pub fn run(
     pair: &Pair,
     scenario: &Scenario,
     schedule: &Schedule,
-    order: Order,
     names: &Names,
     progress: &dyn Fn(),
 ) -> Result<Run, Error> {
     // In terms of parameters, not of the calls by which the units would refuse them.
     design::check(scenario.structure, &scenario.parameters)?;
-    let mut coupling = Coupling::new(pair)?;
-    coupling.configure(scenario.structure, &scenario.parameters)?;
-    run_prepared(coupling, scenario, schedule, order, names, progress)
+    let mut coupling = pair.couple()?;
+    configure(&mut coupling, scenario.structure, &scenario.parameters)?;
+    run_prepared(coupling, scenario, schedule, names, progress)
 }
 
 /// Runs units whose parameters are set, if not all to those of the scenario.
@@ -68,22 +69,21 @@ pub fn run_prepared(
     mut coupling: Coupling,
     scenario: &Scenario,
     schedule: &Schedule,
-    order: Order,
     names: &Names,
     progress: &dyn Fn(),
 ) -> Result<Run, Error> {
     let (controller, plant) = (coupling.controller.description(), coupling.plant.description());
     let mut recorder = Recorder::new(names, controller, plant, schedule.steps() + 1)?;
     let begin = Instant::now();
-    let result = coupling.run(schedule, order, &mut |time, controller, plant| {
+    let result = coupling.run(schedule, &mut |time, controller, plant| {
         progress();
         recorder.record(time, controller, plant)
     });
     let elapsed = begin.elapsed();
     let stopped = match result {
         Ok(()) => None,
-        Err(stopped @ Error::Step { .. }) => Some(stopped),
-        Err(error) => return Err(error),
+        Err(stopped @ coupling::Error::Step { .. }) => Some(stopped.into()),
+        Err(error) => return Err(error.into()),
     };
     Ok(Run { scenario: scenario.clone(), recording: recorder.finish(), stopped, elapsed })
 }

@@ -10,7 +10,7 @@ use uam::scenarios::{self, Scenario, catalogue};
 use uam::variables::options::Choice;
 
 use crate::claims::{self, Claim, DISCRETIZATIONS, Numbers, Quantity, Row, Table};
-use crate::coupling::{Error, Order, Pair, Schedule};
+use crate::coupling::{Error, Pair, Schedule};
 use crate::record::{Names, NotRecorded};
 use crate::run::{Run, run};
 
@@ -27,7 +27,7 @@ pub fn run_with(
     let schedule = Schedule::new(0.0, scenario.duration, scenario.step)?;
     let mut variant = scenario.clone();
     variant.parameters.ik.discretization = discretization;
-    run(pair, &variant, &schedule, Order::Parallel, &Names::standard(scenario.structure), progress)
+    run(pair, &variant, &schedule, &Names::standard(scenario.structure), progress)
 }
 
 /// A scenario, run with each of [`DISCRETIZATIONS`].

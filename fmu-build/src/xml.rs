@@ -5,7 +5,7 @@ use std::io;
 
 use quick_xml::events::{BytesDecl, Event};
 use quick_xml::writer::{ElementWriter, Writer};
-use uam::variables::unit::Unit;
+use uam::variables::unit::PhysicalUnit;
 
 use crate::error::{Error, Result};
 
@@ -88,7 +88,7 @@ pub fn truth(value: bool) -> &'static str {
 }
 
 /// The exponents of a unit's base units other than 0, as attributes of a `BaseUnit` element.
-pub fn base_exponents(unit: &Unit) -> impl Iterator<Item = (&'static str, Cow<'static, str>)> {
+pub fn base_exponents(unit: &PhysicalUnit) -> impl Iterator<Item = (&'static str, Cow<'static, str>)> {
     [("kg", unit.kg), ("m", unit.m), ("s", unit.s), ("rad", unit.rad)]
         .into_iter()
         .filter(|(_, exponent)| *exponent != 0)

@@ -4,66 +4,51 @@
 
 mod common;
 
-use fmu_build::coupling::{Coupling, Order, Schedule};
+use fmu_build::coupling::Schedule;
 use fmu_build::fmu::{Fmu, Selection, Value};
 use fmu_build::record::{Names, Recording};
 use fmu_build::run::run;
-use uam::fmi::{CommunicationStep, Model};
+use uam::coupling::{Unit, in_process};
 use uam::scenarios::{Scenario, find};
-use uam::units::{controller::ControllerUnit, plant::PlantUnit};
 
 fn scenario() -> Scenario {
     find("4.3a").unwrap()
 }
 
-fn recorded(schedule: &Schedule, order: Order) -> Recording {
+fn recorded(schedule: &Schedule) -> Recording {
     let scenario = scenario();
-    let run = run(&common::pair(), &scenario, schedule, order, &Names::standard(scenario.structure), &|| {}).unwrap();
+    let run = run(&common::pair(), &scenario, schedule, &Names::standard(scenario.structure), &|| {}).unwrap();
     assert!(run.stopped.is_none());
     run.recording
 }
 
-/// The pose of the UAV at the end, from the models themselves, without FMI between.
-fn pose_of_models(scenario: &Scenario, schedule: &Schedule) -> [f64; 3] {
-    let structure = scenario.structure;
-    let (mut controller, mut plant) = (ControllerUnit::start(structure), PlantUnit::start(structure));
-    controller.parameters.clone_from(&scenario.parameters);
-    plant.parameters.clone_from(&scenario.parameters);
-    let mut planner = ControllerUnit::initialize(structure, &mut controller, 0.0).unwrap();
-    let mut simulation = PlantUnit::initialize(structure, &mut plant, 0.0).unwrap();
-    for interval in schedule.intervals() {
-        let step = CommunicationStep { start_time: 0.0, from: interval.from, size: interval.size };
-        plant.inputs.rate_command = controller.outputs.rate_command;
-        plant.inputs.grasp = controller.outputs.grasp;
-        simulation.step(&mut plant, step).unwrap();
-        planner.step(&mut controller, step).unwrap();
-    }
-    plant.outputs.pose.into()
+/// The pose of the UAV at the end, coupled in this process, without C interface between.
+fn pose_in_process(scenario: &Scenario, schedule: &Schedule) -> Vec<f64> {
+    let mut coupling = in_process::pair(scenario.structure, &scenario.parameters).unwrap();
+    coupling.run(schedule, &mut |_, _, _| Ok(())).unwrap();
+    let (pose, mut values) = coupling.plant.select(&POSE).unwrap();
+    coupling.plant.read(&pose, &mut values).unwrap();
+    values
 }
+
+const POSE: [&str; 3] = ["base.x", "base.y", "base.roll"];
 
 #[test]
 fn nothing_is_lost_on_the_way_through_the_c_interface() {
     let schedule = Schedule::new(0.0, 3.0, 1e-3).unwrap();
-    let recording = recorded(&schedule, Order::Parallel);
-    let expected = pose_of_models(&scenario(), &schedule);
-    for (name, expected) in ["base.x", "base.y", "base.roll"].into_iter().zip(expected) {
-        let found = recording.column(name).unwrap()[recording.len() - 1];
-        assert!((found - expected).abs() < 1e-13, "{name}: {found} instead of {expected}");
+    let recording = recorded(&schedule);
+    let expected = pose_in_process(&scenario(), &schedule);
+    for (name, expected) in POSE.into_iter().zip(&expected) {
+        assert_eq!(recording.column(name).unwrap()[recording.len() - 1], *expected, "{name}");
     }
     assert!(expected[0] > 0.05, "the UAV has moved: {}", expected[0]);
 }
 
 #[test]
 fn rates_and_grasp_are_connected_by_name() {
-    let coupling = Coupling::new(&common::pair()).unwrap();
+    let coupling = common::pair().couple().unwrap();
     // A rate and an acceleration for each of three joints, and the grasp.
     assert_eq!(coupling.connections().0, 3 + 3 + 1);
-}
-
-#[test]
-fn without_feedback_the_order_does_not_matter() {
-    let schedule = Schedule::new(0.0, 2.0, 1e-3).unwrap();
-    assert_eq!(recorded(&schedule, Order::Parallel), recorded(&schedule, Order::PlantFirst));
 }
 
 #[test]
@@ -72,16 +57,16 @@ fn the_initial_outputs_are_handed_over_before_the_first_step() {
     scenario.parameters.payload.grasp_time = -1.0;
     let schedule = Schedule::new(0.0, 0.01, 1e-3).unwrap();
     let names = Names::standard(scenario.structure);
-    let run = run(&common::pair(), &scenario, &schedule, Order::Parallel, &names, &|| {}).unwrap();
+    let run = run(&common::pair(), &scenario, &schedule, &names, &|| {}).unwrap();
     assert_eq!(run.recording.column("payload.attached").unwrap()[1], 1.0);
 }
 
 #[test]
 fn instances_do_not_disturb_each_other() {
     let schedule = Schedule::new(0.0, 1.0, 1e-3).unwrap();
-    let alone = recorded(&schedule, Order::Parallel);
+    let alone = recorded(&schedule);
     let all: Vec<Recording> = std::thread::scope(|scope| {
-        let threads = [(); 3].map(|()| scope.spawn(|| recorded(&schedule, Order::Parallel)));
+        let threads = [(); 3].map(|()| scope.spawn(|| recorded(&schedule)));
         threads.into_iter().map(|thread| thread.join().unwrap()).collect()
     });
     assert!(all.iter().all(|recording| *recording == alone));

@@ -10,11 +10,12 @@ use std::{env, fs};
 
 use digests::{Digest, EVERY};
 use fmu_build::compile::{compile, target_libraries};
-use fmu_build::coupling::{Coupling, Error, Order, Schedule};
+use fmu_build::coupling::{Schedule, configure};
 use fmu_build::cross::{TARGETS, Toolchain};
 use fmu_build::fmu::{Causality, Instance, Selection};
 use fmu_build::study::on_all_cores;
 use fmu_build::{claims::DISCRETIZATIONS, workspace};
+use uam::coupling;
 use uam::parameters::Discretization;
 use uam::scenarios::{Scenario, catalogue};
 use uam::variables::options::Choice;
@@ -71,10 +72,10 @@ fn the_program_gives_them() {
 
 /// The line of a run on FMUs.
 fn line(scenario: &Scenario, discretization: Discretization) -> String {
-    let mut coupling = Coupling::new(common::pair_of(scenario.structure)).unwrap();
+    let mut coupling = common::pair_of(scenario.structure).couple().unwrap();
     let mut parameters = scenario.parameters.clone();
     parameters.ik.discretization = discretization;
-    coupling.configure(scenario.structure, &parameters).unwrap();
+    configure(&mut coupling, scenario.structure, &parameters).unwrap();
     let schedule = Schedule::new(0.0, scenario.duration, scenario.step).unwrap();
 
     let outputs = |unit: &Instance| {
@@ -83,7 +84,7 @@ fn line(scenario: &Scenario, discretization: Discretization) -> String {
     };
     let (controller, plant) = (outputs(&coupling.controller), outputs(&coupling.plant));
     let (mut digest, mut count) = (Digest::default(), 0);
-    let outcome = coupling.run(&schedule, Order::Parallel, &mut |_, c, p| {
+    let outcome = coupling.run(&schedule, &mut |_, c, p| {
         if count % EVERY == 0 || count == schedule.steps() {
             for (unit, outputs) in [(c, &controller), (p, &plant)] {
                 let mut values = outputs.values();
@@ -94,7 +95,7 @@ fn line(scenario: &Scenario, discretization: Discretization) -> String {
         count += 1;
         Ok(())
     });
-    assert!(matches!(outcome, Ok(()) | Err(Error::Step { .. })), "{}: {outcome:?}", scenario.id);
+    assert!(matches!(outcome, Ok(()) | Err(coupling::Error::Step { .. })), "{}: {outcome:?}", scenario.id);
     digest.line(&scenario.id, discretization.name())
 }
 
@@ -110,6 +111,19 @@ fn the_fmus_give_the_digests_under_version_control() {
     }
     print!("{found}");
     assert_expected(&found, "FMUs");
+}
+
+/// The same instances without a C interface.
+#[test]
+fn units_in_this_process_give_them() {
+    let scenarios = catalogue().unwrap();
+    let runs: Vec<_> = scenarios.iter().flat_map(|scenario| DISCRETIZATIONS.map(|with| (scenario, with))).collect();
+    let lines = on_all_cores(&runs, &|(scenario, discretization)| {
+        let mut variant = (*scenario).clone();
+        variant.parameters.ik.discretization = *discretization;
+        digests::in_process(&variant).unwrap().line(&scenario.id, discretization.name())
+    });
+    assert_expected(&(lines.join("\n") + "\n"), "in this process");
 }
 
 #[test]

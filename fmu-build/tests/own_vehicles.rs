@@ -7,7 +7,7 @@ use std::fs::{self, File};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use fmu_build::coupling::{Coupling, Order, Pair, Schedule};
+use fmu_build::coupling::{Coupling, Pair, Schedule, configure};
 use fmu_build::fmu::{Fmu, Value};
 use fmu_build::package::fmu;
 use fmu_build::platform::Platform;
@@ -33,7 +33,7 @@ fn built(design: Design, name: &str) -> Built {
 /// Runs both units as they are; the pose of the UAV at the end.
 fn end(coupling: &mut Coupling, names: [&str; 3]) -> [Value; 3] {
     let schedule = Schedule::new(0.0, 1.0, 1e-3).unwrap();
-    coupling.run(&schedule, Order::Parallel, &mut |_, _, _| Ok(())).unwrap();
+    coupling.run(&schedule, &mut |_, _, _| Ok(())).unwrap();
     names.map(|name| coupling.plant.value(name).unwrap())
 }
 
@@ -53,10 +53,10 @@ fn nothing_needs_to_be_set_and_nothing_else_is_different() {
     let known = built(Design::from(design.structure), "known vehicle");
     assert_eq!(library(&own.plant, "uam_plant"), library(&known.plant, "uam_plant"), "one binary serves all");
 
-    let mut own = Coupling::new(&Pair::open(&own.controller, &own.plant).unwrap()).unwrap();
+    let mut own = Pair::open(&own.controller, &own.plant).unwrap().couple().unwrap();
     assert_eq!(own.plant.value("uav.mass").unwrap(), Value::Real(4.0 + 1.0 / 3.0));
-    let mut known = Coupling::new(&Pair::open(&known.controller, &known.plant).unwrap()).unwrap();
-    known.configure(design.structure, &design.parameters).unwrap();
+    let mut known = Pair::open(&known.controller, &known.plant).unwrap().couple().unwrap();
+    configure(&mut known, design.structure, &design.parameters).unwrap();
     let pose = end(&mut own, POSE);
     assert_eq!(pose, end(&mut known, POSE));
     assert_ne!(pose, [Value::Real(0.0); 3], "it moves");
@@ -75,8 +75,8 @@ fn nothing_needs_to_be_set_and_nothing_else_is_different() {
 fn flat_names_are_for_hosts_that_make_buses_of_structured_ones() {
     let flat = built(Design { naming: Naming::Flat, ..design() }, "flat names");
     let structured = built(design(), "structured names");
-    let mut flat = Coupling::new(&Pair::open(&flat.controller, &flat.plant).unwrap()).unwrap();
-    let mut structured = Coupling::new(&Pair::open(&structured.controller, &structured.plant).unwrap()).unwrap();
+    let mut flat = Pair::open(&flat.controller, &flat.plant).unwrap().couple().unwrap();
+    let mut structured = Pair::open(&structured.controller, &structured.plant).unwrap().couple().unwrap();
     assert_eq!(flat.connections(), structured.connections());
     let flat_end = end(&mut flat, ["base_x", "base_y", "base_roll"]);
     assert_eq!(flat_end, end(&mut structured, POSE));

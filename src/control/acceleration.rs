@@ -12,27 +12,27 @@
 //!   the wanted acceleration times the step. As in the thesis nothing that is off is ever made good.
 
 use super::clock::Clock;
-use super::outset::Outset;
 use super::plan::Plan;
+use super::plan_context::PlanContext;
 use super::prediction::Prediction;
 use super::resolution::{Aims, Problem, Task};
 use super::response::Response;
 use crate::mechanics::dynamics::{Motion, Situation};
 use crate::mechanics::kinematics::Displacement;
-use crate::mechanics::planar::{Turn, Vec2};
+use crate::mechanics::planar::{Rotation, Vec2};
 
-impl<const N: usize> Outset<N> {
+impl<const N: usize> PlanContext<N> {
     /// Accelerations for the interval of the `clock` from time `t`, with which the end effector has the
     /// `acceleration` now; the prediction at its `end`.
     pub fn accelerate_euler(&self, t: f64, clock: &Clock, acceleration: Vec2, end: &mut Prediction<N>) -> Plan<N> {
         let horizon = clock.horizon;
         let here = &self.now.situation;
         // After the jump of the base's velocity, if the payload has just been taken over.
-        let base = self.dynamics.base_motion(&here.node, here.state.momentum_in(here.turn), here.node.arm);
+        let base = self.dynamics.base_motion(&here.node, here.state.momentum_in(here.rotation), here.node.arm);
         let velocity = self.end_effector_velocity(here, base) + acceleration * horizon;
         let (ahead, carried) = self.ahead(t, horizon, end);
-        let response = self.response(&ahead.node, ahead.turn, &ahead.state);
-        let problem = self.at_end(&response, ahead.turn, velocity, self.moment_task(&response, carried), horizon);
+        let response = self.response(&ahead.node, ahead.rotation, &ahead.state);
+        let problem = self.at_end(&response, ahead.rotation, velocity, self.moment_task(&response, carried), horizon);
         let resolved = self.solve(&problem, clock, &self.places, Aims::All);
         let motion = self.accelerating_to(&resolved.rate, clock);
         self.accelerated(&ahead, &response, &motion, [t, horizon], end);
@@ -47,7 +47,7 @@ impl<const N: usize> Outset<N> {
     /// of the moment on the UAV \[N m s\].
     pub fn predict_accelerated(&self, t: f64, size: f64, end: &mut Prediction<N>) -> f64 {
         let (ahead, carried) = self.ahead(t, size, end);
-        let response = self.response(&ahead.node, ahead.turn, &ahead.state);
+        let response = self.response(&ahead.node, ahead.rotation, &ahead.state);
         self.accelerated(&ahead, &response, &self.motion, [t, size], end);
         carried - end.carried
     }
@@ -85,12 +85,12 @@ impl<const N: usize> Outset<N> {
     pub fn at_end(
         &self,
         response: &Response<N>,
-        turn: Turn,
+        rotation: Rotation,
         velocity: Vec2,
         moment: Task<N>,
         interval: f64,
     ) -> Problem<N> {
-        let followed = |v: Vec2| self.resolver.followed(turn.apply(v));
+        let followed = |v: Vec2| self.resolver.followed(rotation.apply(v));
         let mut path = response.jacobian;
         for mut column in path.column_iter_mut() {
             column.copy_from(&followed(column.clone_owned()));

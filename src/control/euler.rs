@@ -4,25 +4,25 @@
 //! the arm oscillates in its null space.
 
 use super::clock::Clock;
-use super::outset::Outset;
 use super::plan::Plan;
+use super::plan_context::PlanContext;
 use super::prediction::Prediction;
 use super::resolution::{Aims, Problem};
 use crate::mechanics::dynamics::Motion;
 use crate::mechanics::planar::Vec2;
 use crate::parameters::Hold;
 
-impl<const N: usize> Outset<N> {
+impl<const N: usize> PlanContext<N> {
     /// Rates for the interval of the `clock` from time `t`, at which the end effector moves with
     /// `velocity`; the prediction at its `end`.
     pub fn plan_euler(&self, t: f64, clock: &Clock, velocity: Vec2, end: &mut Prediction<N>) -> Plan<N> {
         let horizon = clock.horizon;
         let here = &self.now.situation;
         let carried = self.now.carried + self.dynamics.begin_explicit(here, t, horizon, &mut end.situation.state);
-        let response = self.response(&here.node, here.turn, &end.situation.state);
+        let response = self.response(&here.node, here.rotation, &end.situation.state);
         let problem = Problem {
             path: response.jacobian,
-            velocity: here.turn.undo(velocity) - response.end_effector_free,
+            velocity: here.rotation.undo(velocity) - response.end_effector_free,
             interval: horizon,
             caution: self.damping.caution(),
             moment: self.moment_task(&response, carried),
@@ -50,7 +50,7 @@ impl<const N: usize> Outset<N> {
         }
         let (here, rate) = (&self.now.situation, self.motion.rate_after(size));
         let carried = self.now.carried + self.dynamics.begin_explicit(here, t, size, &mut end.situation.state);
-        let response = self.response(&here.node, here.turn, &end.situation.state);
+        let response = self.response(&here.node, here.rotation, &end.situation.state);
         self.end_explicit(here, &response, &rate, &(rate * size), [t, size], end);
         carried - end.carried
     }

@@ -10,8 +10,8 @@ use nalgebra::SVector;
 
 use super::Status;
 use super::clock::Clock;
-use super::outset::Outset;
 use super::plan::{ON_PATH, Plan};
+use super::plan_context::PlanContext;
 use super::prediction::Prediction;
 use super::resolution::{Aims, Problem, Resolved, Task};
 use crate::error::Result;
@@ -53,7 +53,7 @@ struct Way<'a> {
     aims: Aims,
 }
 
-impl<const N: usize> Outset<N> {
+impl<const N: usize> PlanContext<N> {
     /// A plan for the interval of the `clock` from time `t` that brings the end effector onto the `target`, or as near
     /// to it as it may come in one interval; the wanted place is `now` now, and was foreseen to be `expected` \[m\]. Writes
     /// the prediction at its `end`.
@@ -100,11 +100,11 @@ impl<const N: usize> Outset<N> {
         if !self.resolver.limits_accelerations() || way <= SHORTENED {
             return CATCHING_UP;
         }
-        let Situation { node, turn, state } = &self.now.situation;
-        let response = self.response(node, *turn, state);
+        let Situation { node, rotation, state } = &self.now.situation;
+        let response = self.response(node, *rotation, state);
         let along = Problem {
             path: response.jacobian,
-            velocity: turn.undo(behind / way),
+            velocity: rotation.undo(behind / way),
             interval: horizon,
             caution: 0.0,
             moment: Task { row: response.carried, value: 0.0 },
@@ -179,18 +179,18 @@ impl<const N: usize> Outset<N> {
                 break;
             }
 
-            let Situation { node, turn, state } = &end.situation;
-            let response = self.response(node, *turn, state);
+            let Situation { node, rotation, state } = &end.situation;
+            let response = self.response(node, *rotation, state);
             let carried = self.now.carried + impulse;
             let moment = self.moment_task(&response, carried);
             let mean = Problem {
                 path: response.jacobian,
-                velocity: response.jacobian * plan.motion.rate_after(0.5 * horizon) + turn.undo(missing / horizon),
+                velocity: response.jacobian * plan.motion.rate_after(0.5 * horizon) + rotation.undo(missing / horizon),
                 interval: horizon,
                 caution: self.damping.caution(),
                 moment,
             };
-            let at_end = || self.at_end(&response, *turn, target.velocity, moment, horizon);
+            let at_end = || self.at_end(&response, *rotation, target.velocity, moment, horizon);
             let solve = |asked: &Problem<N>| self.solve(asked, clock, &plan.places, aims);
             let (resolved, motion) = if accelerates {
                 let resolved = solve(&at_end());

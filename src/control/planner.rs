@@ -8,11 +8,11 @@ use nalgebra::SVector;
 use super::clock::Clock;
 use super::damping::MomentDamping;
 use super::foreseen::Foreseen;
-use super::outset::Outset;
 use super::plan::Plan;
+use super::plan_context::PlanContext;
 use super::prediction::Prediction;
 use super::resolution::Resolver;
-use super::{Inputs, Outputs, Planner, Rates};
+use super::{Inputs, OutputDerivatives, Outputs, Planner};
 use crate::autopilot::AutopilotMode;
 use crate::bytes::{Memory, Tape};
 use crate::control::qp;
@@ -29,7 +29,7 @@ const SAME_TIME: f64 = 1e-9;
 /// Inverse kinematics of an aerial manipulator with `N` coordinates, with its prediction.
 #[derive(Debug, Clone)]
 pub struct Controller<const N: usize> {
-    outset: Outset<N>,
+    context: PlanContext<N>,
     /// Accelerations sent at the communication point before.
     slope_before: SVector<f64, N>,
     discretization: Discretization,
@@ -66,7 +66,7 @@ impl<const N: usize> Controller<N> {
         let now = Box::new(Prediction::at_rest(dynamics.start(parameters)));
         let (origin, planned_end) = (now.end_effector(), now.clone());
         Ok(Self {
-            outset: Outset {
+            context: PlanContext {
                 resolver: Resolver::new(structure, parameters, dynamics.vehicle.reach()),
                 hold: ik.hold,
                 motion: Motion::constant(SVector::zeros()),
@@ -93,7 +93,7 @@ impl<const N: usize> Controller<N> {
 
     /// Takes the payload over in the prediction if it is time: the host is told at the same instant.
     fn grasp_in_time(&mut self, t: f64) {
-        let Outset { dynamics, now, .. } = &mut self.outset;
+        let PlanContext { dynamics, now, .. } = &mut self.context;
         if t >= self.grasp_time - SAME_TIME && !now.situation.state.held {
             dynamics.grasp(&mut now.situation);
         }
@@ -101,34 +101,34 @@ impl<const N: usize> Controller<N> {
 
     /// Plans the interval from time `t` on, where the reference is at `wanted` and was foreseen at `expected` \[m\].
     fn plan(&mut self, t: f64, wanted: &Target, expected: Vec2, outputs: &mut Outputs) -> Result<()> {
-        let Self { outset, planned_end: end, clock, .. } = self;
+        let Self { context, planned_end: end, clock, .. } = self;
         let horizon = clock.horizon;
         let target = self.foreseen.at(t + horizon);
-        outset.damping.prepare(horizon);
+        context.damping.prepare(horizon);
         let mut plan = match self.discretization {
-            Discretization::Exact => outset.plan_towards(t, clock, expected, wanted.displacement, target, end)?,
-            Discretization::Euler if outset.resolver.accelerates() => {
-                outset.accelerate_euler(t, clock, wanted.acceleration, end)
+            Discretization::Exact => context.plan_towards(t, clock, expected, wanted.displacement, target, end)?,
+            Discretization::Euler if context.resolver.accelerates() => {
+                context.accelerate_euler(t, clock, wanted.acceleration, end)
             }
-            Discretization::Euler => outset.plan_euler(t, clock, target.velocity, end),
+            Discretization::Euler => context.plan_euler(t, clock, target.velocity, end),
         };
         plan.check(t)?;
         end.situation.state.check(t)?;
-        self.planned_miss = outset.resolver.followed(target.displacement - end.end_effector());
+        self.planned_miss = context.resolver.followed(target.displacement - end.end_effector());
         self.aim = *target;
-        outset.damping.momentum = plan.momentum;
+        context.damping.momentum = plan.momentum;
         if plan.moment_is_met() {
-            self.lasting_moment = Some(plan.moment_residual + outset.owed / horizon);
+            self.lasting_moment = Some(plan.moment_residual + context.owed / horizon);
         } else {
-            (self.lasting_moment, outset.owed) = (None, 0.0);
+            (self.lasting_moment, context.owed) = (None, 0.0);
         }
         plan.admit_miss(self.planned_miss.norm());
         if self.discretization == Discretization::Exact {
-            outset.before.rotate_right(1);
-            outset.before[0] = plan.motion;
+            context.before.rotate_right(1);
+            context.before[0] = plan.motion;
         }
-        outset.motion = plan.motion;
-        outset.places = plan.places;
+        context.motion = plan.motion;
+        context.places = plan.places;
         (self.planned_at, self.untouched) = (t, true);
         outputs.status = plan.status;
         outputs.min_singular_value = plan.min_singular_value;
@@ -139,34 +139,34 @@ impl<const N: usize> Controller<N> {
 
     /// Advances the prediction by `size` \[s\] at the rates sent.
     fn predict(&mut self, t: f64, size: f64) -> Result<()> {
-        let Self { outset, planned_end: end, .. } = self;
+        let Self { context, planned_end: end, .. } = self;
         // The plan has already been there, if the host makes the step that it was made for; samples of the autopilot are
         // taken by the clock, which may have been rounded.
-        if !self.untouched || size != self.clock.horizon || (t != self.planned_at && outset.dynamics.is_sampled()) {
-            let mut step = Plan::moving(outset.motion);
+        if !self.untouched || size != self.clock.horizon || (t != self.planned_at && context.dynamics.is_sampled()) {
+            let mut step = Plan::moving(context.motion);
             if self.discretization == Discretization::Euler {
-                step.moment_residual = outset.predict_euler(t, size, end) / size;
+                step.moment_residual = context.predict_euler(t, size, end) / size;
             } else {
-                outset.carry_out(&mut step, t, size, end)?;
+                context.carry_out(&mut step, t, size, end)?;
             }
             end.situation.state.check(t + size)?;
             if let Some(lasting) = self.lasting_moment {
-                outset.owed += (step.moment_residual - lasting) * size;
+                context.owed += (step.moment_residual - lasting) * size;
             }
         } else if self.lasting_moment.is_some() {
-            outset.owed = 0.0;
+            context.owed = 0.0;
         }
-        std::mem::swap(&mut outset.now, end);
-        outset.damping.advance(size, self.lasting_moment.is_some());
+        std::mem::swap(&mut context.now, end);
+        context.damping.advance(size, self.lasting_moment.is_some());
         self.clock.advance(size);
         self.untouched = false;
-        self.slope_before = outset.motion.slope;
-        outset.motion = outset.motion.after(size);
+        self.slope_before = context.motion.slope;
+        context.motion = context.motion.after(size);
         Ok(())
     }
 
     fn write_prediction(&self, wanted: &Target, outputs: &mut Outputs) {
-        let Outset { now, motion, .. } = &self.outset;
+        let PlanContext { now, motion, .. } = &self.context;
         let state = &now.situation.state;
         outputs.rate_command[..N].copy_from_slice(motion.rate.as_slice());
         outputs.acceleration_command[..N].copy_from_slice(motion.slope.as_slice());
@@ -184,7 +184,7 @@ impl<const N: usize> Memory for Controller<N> {
     fn pass(&mut self, tape: &mut Tape<'_>) {
         // Without "..": whoever adds a field decides here whether it follows from the parameters.
         let Self {
-            outset,
+            context,
             slope_before,
             discretization: _,
             clock,
@@ -197,7 +197,7 @@ impl<const N: usize> Memory for Controller<N> {
             untouched,
             planned_at,
         } = self;
-        pass!(tape: outset, slope_before, clock, foreseen, aim, planned_miss, lasting_moment);
+        pass!(tape: context, slope_before, clock, foreseen, aim, planned_miss, lasting_moment);
         pass!(tape: planned_end, untouched, planned_at);
     }
 }
@@ -207,18 +207,18 @@ impl<const N: usize> Planner for Controller<N> {
         *outputs = Outputs::default();
         self.grasp_in_time(0.0);
         // How long the host's steps are is not known yet: a ramp might be held far beyond its end.
-        let hold = std::mem::replace(&mut self.outset.hold, Hold::ZeroOrder);
+        let hold = std::mem::replace(&mut self.context.hold, Hold::ZeroOrder);
         let wanted = *self.foreseen.at(0.0);
         self.plan(0.0, &wanted, wanted.displacement, outputs)?;
-        self.outset.hold = hold;
+        self.context.hold = hold;
         self.write_prediction(&wanted, outputs);
         Ok(())
     }
 
     fn tune(&mut self, parameters: &Parameters) {
-        let others = self.outset.dynamics.tune(&parameters.autopilot);
-        self.outset.resolver.tune(parameters);
-        self.outset.damping.tune(&parameters.ik);
+        let others = self.context.dynamics.tune(&parameters.autopilot);
+        self.context.resolver.tune(parameters);
+        self.context.damping.tune(&parameters.ik);
         // What was planned with was predicted by other laws.
         self.untouched &= !others;
     }
@@ -229,9 +229,9 @@ impl<const N: usize> Planner for Controller<N> {
         self.grasp_in_time(now);
         self.foreseen.take(inputs, t, size);
         let wanted = *self.foreseen.at(now);
-        if self.clock.is_due() || self.outset.must_brake(&self.clock) {
+        if self.clock.is_due() || self.context.must_brake(&self.clock) {
             let expected = self.aim.at(self.clock.since_plan - self.clock.horizon).displacement;
-            let miss = self.outset.resolver.followed(wanted.displacement - self.outset.now.end_effector());
+            let miss = self.context.resolver.followed(wanted.displacement - self.context.now.end_effector());
             outputs.late_miss = (miss - self.planned_miss).norm();
             self.clock.plan(size);
             self.plan(now, &wanted, expected, outputs)?;
@@ -240,24 +240,24 @@ impl<const N: usize> Planner for Controller<N> {
         Ok(())
     }
 
-    fn rates(&self, t: f64) -> Rates {
-        let Outset { dynamics, now, .. } = &self.outset;
+    fn output_derivatives(&self, t: f64) -> OutputDerivatives {
+        let PlanContext { dynamics, now, .. } = &self.context;
         let now = &now.situation;
-        let mut rates = Rates {
+        let mut derivatives = OutputDerivatives {
             reference_velocity: self.foreseen.acceleration(t),
-            predicted_end_effector: self.outset.end_effector_velocity(now, now.base()),
+            predicted_end_effector: self.context.end_effector_velocity(now, now.base()),
             predicted_velocity: dynamics.at_end(now, &self.slope_before, &Load::NONE).acceleration,
-            ..Rates::default()
+            ..OutputDerivatives::default()
         };
-        rates.predicted_position[..N].copy_from_slice(now.state.rate.as_slice());
-        rates
+        derivatives.predicted_position[..N].copy_from_slice(now.state.rate.as_slice());
+        derivatives
     }
 
     fn check_memory(&self) -> Result<()> {
-        self.outset.dynamics.check_gains()?;
-        self.outset.now.check_memory()?;
+        self.context.dynamics.check_gains()?;
+        self.context.now.check_memory()?;
         self.planned_end.check_memory()?;
-        self.outset.damping.check_memory()?;
+        self.context.damping.check_memory()?;
         self.clock.check_memory()
     }
 

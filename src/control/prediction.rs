@@ -35,8 +35,8 @@ impl<const N: usize> Prediction<N> {
 
     /// Its situation is the end of a step: the angular momentum follows from it.
     pub fn end_step(&mut self, dynamics: &Dynamics<N>) {
-        let Situation { node, turn, state } = &self.situation;
-        self.carried = dynamics.carried_angular(node, *turn, self.situation.base(), node.arm, state.momentum.z);
+        let Situation { node, rotation, state } = &self.situation;
+        self.carried = dynamics.carried_angular(node, *rotation, self.situation.base(), node.arm, state.momentum.z);
     }
 
     /// Whether a controller can be here.

@@ -4,7 +4,7 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::mechanics::dynamics::{Dynamics, Node};
 use crate::mechanics::momentum::Twist;
-use crate::mechanics::planar::{Turn, Vec2, perp};
+use crate::mechanics::planar::{Rotation, Vec2, perp};
 
 /// Linear answers to the rates in one configuration, axes of the UAV frame:
 /// v_ee = jacobian q_dot + end_effector_free (thesis 2.28).
@@ -22,26 +22,26 @@ pub struct Response<const N: usize> {
 }
 
 impl<const N: usize> Response<N> {
-    /// Answers of a system whose arm is at `node`, turned by `turn`, with this momentum in the axes of the UAV frame;
+    /// Answers of a system whose arm is at `node`, turned by `rotation`, with this momentum in the axes of the UAV frame;
     /// `held`: of an arm whose last coordinate is kept at rest.
     #[must_use]
-    pub fn new(dynamics: &Dynamics<N>, node: &Node<N>, turn: Turn, momentum: Twist, held: bool) -> Self {
+    pub fn new(dynamics: &Dynamics<N>, node: &Node<N>, rotation: Rotation, momentum: Twist, held: bool) -> Self {
         // The compiler writes it twice: with models that it knows, it takes two thirds of the instructions.
         if dynamics.neglects_nothing() {
-            Self::written(dynamics, node, turn, momentum, held)
+            Self::written(dynamics, node, rotation, momentum, held)
         } else {
-            Self::by_models(dynamics, node, turn, momentum, held)
+            Self::by_models(dynamics, node, rotation, momentum, held)
         }
     }
 
     #[cold]
     #[inline(never)]
-    fn by_models(dynamics: &Dynamics<N>, node: &Node<N>, turn: Turn, momentum: Twist, held: bool) -> Self {
-        Self::written(dynamics, node, turn, momentum, held)
+    fn by_models(dynamics: &Dynamics<N>, node: &Node<N>, rotation: Rotation, momentum: Twist, held: bool) -> Self {
+        Self::written(dynamics, node, rotation, momentum, held)
     }
 
     #[inline(always)]
-    fn written(dynamics: &Dynamics<N>, node: &Node<N>, turn: Turn, momentum: Twist, held: bool) -> Self {
+    fn written(dynamics: &Dynamics<N>, node: &Node<N>, rotation: Rotation, momentum: Twist, held: bool) -> Self {
         let (posture, tip) = (&node.posture, node.posture.end_effector);
         let at_tip = |v: Twist| {
             let v = dynamics.base.carried(v);
@@ -52,7 +52,7 @@ impl<const N: usize> Response<N> {
             jacobian: SMatrix::zeros(),
             end_effector_free: at_tip(free),
             carried: SVector::zeros(),
-            carried_free: dynamics.carried_angular(node, turn, free, Twist::ZERO, momentum.angular),
+            carried_free: dynamics.carried_angular(node, rotation, free, Twist::ZERO, momentum.angular),
         };
         for (i, column) in node.matrix.columns.iter().enumerate() {
             if held && i == N - 1 {
@@ -62,7 +62,7 @@ impl<const N: usize> Response<N> {
             let base = dynamics.base_motion(node, Twist::ZERO, *column);
             let own = perp(tip - posture.joint[i]) * dynamics.vehicle.revolute[i];
             response.jacobian.set_column(i, &(at_tip(base) + own));
-            response.carried[i] = dynamics.carried_angular(node, turn, base, *column, 0.0);
+            response.carried[i] = dynamics.carried_angular(node, rotation, base, *column, 0.0);
         }
         response
     }

@@ -12,7 +12,7 @@ use uuid::Uuid;
 use super::model::Model;
 use super::naming::Naming;
 use super::start_file::{Place, StartFileError};
-use crate::variables::unit::Unit;
+use crate::variables::unit::PhysicalUnit;
 use crate::variables::{Bounds, Causality, Kind, Table, Variable};
 
 /// The name space of all identities.
@@ -144,7 +144,7 @@ fn describe<D>(text: &mut String, variable: &Variable<D>, start: &mut D) -> fmt:
     writeln!(text)
 }
 
-fn describe_unit(text: &mut String, unit: &Unit) -> fmt::Result {
+fn describe_unit(text: &mut String, unit: &PhysicalUnit) -> fmt::Result {
     write!(text, "Real {} {} {} {} {}", unit.name, unit.kg, unit.m, unit.s, unit.rad)?;
     match &unit.display {
         Some(display) => write!(text, " {} {:016x}", display.name, display.factor.to_bits()),

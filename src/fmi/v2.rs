@@ -16,7 +16,7 @@ pub mod error;
 mod export;
 pub mod instance;
 pub mod logger;
-pub mod state;
+pub mod phase;
 pub mod states;
 
 pub use capabilities::Capabilities;

@@ -28,13 +28,13 @@ pub use driven::{Driven, Torques};
 pub use instant::Instant;
 pub use law::Node;
 pub use loads::{Load, Loads};
-pub use rates::Rates;
+pub use rates::EndRates;
 
 use crate::autopilot::{Autopilot, AutopilotMode};
 use crate::bytes::Tape;
 use crate::error::{Error, Result};
 use crate::mechanics::momentum::Twist;
-use crate::mechanics::planar::{Turn, Vec2, vec2};
+use crate::mechanics::planar::{Rotation, Vec2, vec2};
 use crate::mechanics::vehicle::{Balancer, Vehicle};
 use crate::parameters::{BaseModel, MomentModel, Parameters, Structure, Support};
 use crate::variables::Bounds;
@@ -93,10 +93,10 @@ impl<const N: usize> State<N> {
         }
     }
 
-    /// Momentum, and angular momentum about the UAV's centre of mass, in the axes of a frame turned by `turn`.
+    /// Momentum, and angular momentum about the UAV's centre of mass, in the axes of a frame turned by `rotation`.
     #[must_use]
-    pub fn momentum_in(&self, turn: Turn) -> Twist {
-        Twist { linear: turn.undo(self.momentum.xy()), angular: self.momentum.z }
+    pub fn momentum_in(&self, rotation: Rotation) -> Twist {
+        Twist { linear: rotation.undo(self.momentum.xy()), angular: self.momentum.z }
     }
 
     /// Whether a simulation can be in this state.
@@ -159,24 +159,24 @@ pub struct Situation<const N: usize> {
     /// The state.
     pub state: State<N>,
     /// The turn of the arm's frame: by the roll, if the arm turns with the UAV.
-    pub turn: Turn,
+    pub rotation: Rotation,
     /// The arm, moving at the rates of the state.
     pub node: Node<N>,
 }
 
-memory!(Situation<N> { state, turn, node });
+memory!(Situation<N> { state, rotation, node });
 
 impl<const N: usize> Situation<N> {
     /// Motion of the base in the axes of the UAV frame.
     #[must_use]
     pub fn base(&self) -> Twist {
-        Twist { linear: self.turn.undo(self.state.velocity.xy()), angular: self.state.velocity.z }
+        Twist { linear: self.rotation.undo(self.state.velocity.xy()), angular: self.state.velocity.z }
     }
 
     /// A place in the UAV frame \[m\], in the inertial frame \[m\].
     #[must_use]
     pub fn place(&self, place: Vec2) -> Vec2 {
-        self.state.pose.xy() + self.turn.apply(place)
+        self.state.pose.xy() + self.rotation.apply(place)
     }
 }
 
@@ -364,7 +364,7 @@ impl<const N: usize> Dynamics<N> {
     #[must_use]
     pub fn situation(&self, state: State<N>) -> Situation<N> {
         let node = Node::new(&self.vehicle, &state.position, state.held, &state.rate);
-        Situation { turn: self.base.turn(state.pose.z), node, state }
+        Situation { rotation: self.base.rotation(state.pose.z), node, state }
     }
 
     /// Takes the payload over, at rest in the inertial frame: momentum is continuous, velocities jump.
@@ -376,7 +376,7 @@ impl<const N: usize> Dynamics<N> {
     pub fn release(&self, situation: &mut Situation<N>) {
         let mut without = self.situation(State { held: false, contact: false, ..situation.state });
         let h = without.node.matrix.of_base(situation.base()) + without.node.arm;
-        without.state.momentum = in_inertial_frame(situation.turn, h);
+        without.state.momentum = in_inertial_frame(situation.rotation, h);
         *situation = without;
     }
 
@@ -406,7 +406,7 @@ impl<const N: usize> Dynamics<N> {
 
 /// A twist of the UAV frame as (x, y, out of the plane) components of the inertial frame.
 #[must_use]
-pub fn in_inertial_frame(turn: Turn, twist: Twist) -> Vector3<f64> {
-    let linear = turn.apply(twist.linear);
+pub fn in_inertial_frame(rotation: Rotation, twist: Twist) -> Vector3<f64> {
+    let linear = rotation.apply(twist.linear);
     Vector3::new(linear.x, linear.y, twist.angular)
 }

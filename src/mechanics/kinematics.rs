@@ -6,7 +6,7 @@
 
 use nalgebra::SVector;
 
-use crate::mechanics::planar::{Turn, Vec2, vec2};
+use crate::mechanics::planar::{Rotation, Vec2, vec2};
 use crate::mechanics::vehicle::{Balancer, Vehicle};
 use crate::memory;
 
@@ -31,7 +31,7 @@ memory!(Posture<N> { direction, joint, end_effector, payload, counterweight });
 #[derive(Debug, Clone, Copy)]
 pub struct Displacement<const N: usize> {
     /// Turns of the links and of a balance element.
-    turn: [Turn; N],
+    rotation: [Rotation; N],
     /// Way of the counterweight \[m\].
     slide: f64,
 }
@@ -41,31 +41,31 @@ impl<const N: usize> Displacement<N> {
     #[inline]
     #[must_use]
     pub fn small(vehicle: &Vehicle<N>, dq: &SVector<f64, N>) -> Self {
-        Self::by(vehicle, dq, Turn::by_small)
+        Self::by(vehicle, dq, Rotation::from_small_angle)
     }
 
     /// By `dq` \[rad, m\] so small that its square is nothing.
     #[inline]
     #[must_use]
     pub fn tiny(vehicle: &Vehicle<N>, dq: &SVector<f64, N>) -> Self {
-        Self::by(vehicle, dq, Turn::by_tiny)
+        Self::by(vehicle, dq, Rotation::by_tiny)
     }
 
     #[inline]
-    fn by(vehicle: &Vehicle<N>, dq: &SVector<f64, N>, turn_by: impl Fn(f64) -> Turn) -> Self {
+    fn by(vehicle: &Vehicle<N>, dq: &SVector<f64, N>, turn_by: impl Fn(f64) -> Rotation) -> Self {
         let mut angle = 0.0;
-        let mut turn = [Turn::NONE; N];
+        let mut rotation = [Rotation::NONE; N];
         for i in 0..N {
             angle += dq[i] * vehicle.revolute[i];
-            turn[i] = turn_by(angle);
+            rotation[i] = turn_by(angle);
         }
         let mut slide = 0.0;
         match vehicle.balancer {
             None => {}
             Some(Balancer::Counterweight(_)) => slide = dq[N - 1],
-            Some(Balancer::Element(_)) => turn[N - 1] = turn_by(dq[N - 1]),
+            Some(Balancer::Element(_)) => rotation[N - 1] = turn_by(dq[N - 1]),
         }
-        Self { turn, slide }
+        Self { rotation, slide }
     }
 }
 
@@ -87,9 +87,9 @@ impl<const N: usize> Posture<N> {
     /// Becomes the posture with the coordinates `q` \[rad, m\].
     #[inline]
     pub fn take(&mut self, vehicle: &Vehicle<N>, q: &SVector<f64, N>) {
-        let way = Displacement::by(vehicle, q, Turn::by);
-        for (direction, turn) in self.direction.iter_mut().zip(way.turn) {
-            *direction = turn.down();
+        let way = Displacement::by(vehicle, q, Rotation::by);
+        for (direction, rotation) in self.direction.iter_mut().zip(way.rotation) {
+            *direction = rotation.down();
         }
         self.counterweight = match vehicle.balancer {
             Some(Balancer::Counterweight(slider)) => vec2(way.slide, slider.height),
@@ -102,7 +102,7 @@ impl<const N: usize> Posture<N> {
     #[inline]
     pub fn follow(&mut self, vehicle: &Vehicle<N>, from: &Self, way: &Displacement<N>) {
         for i in 0..N {
-            self.direction[i] = way.turn[i].apply(from.direction[i]);
+            self.direction[i] = way.rotation[i].apply(from.direction[i]);
         }
         self.counterweight = vec2(from.counterweight.x + way.slide, from.counterweight.y);
         self.join(vehicle);

@@ -78,14 +78,14 @@ pub struct MomentumMatrix<const N: usize> {
     /// Centre of mass of the whole system \[m\].
     pub center: Vec2,
     /// Inverse mass of the whole system \[1/kg\].
-    lightness: f64,
+    inverse_mass: f64,
     /// Moment of inertia of the whole system about its centre of mass, inverse \[1/(kg m2)\].
-    compliance: f64,
+    inverse_inertia: f64,
     /// Moment of inertia of the whole system about the UAV's centre of mass \[kg m2\].
     inertia: f64,
 }
 
-memory!(MomentumMatrix<N> { mass, first, columns, center, lightness, compliance, inertia });
+memory!(MomentumMatrix<N> { mass, first, columns, center, inverse_mass, inverse_inertia, inertia });
 
 impl<const N: usize> MomentumMatrix<N> {
     /// Nothing has been summed up yet.
@@ -94,8 +94,8 @@ impl<const N: usize> MomentumMatrix<N> {
         first: vec2(0.0, 0.0),
         columns: [Twist::ZERO; N],
         center: vec2(0.0, 0.0),
-        lightness: 0.0,
-        compliance: 0.0,
+        inverse_mass: 0.0,
+        inverse_inertia: 0.0,
         inertia: 0.0,
     };
 
@@ -139,10 +139,10 @@ impl<const N: usize> MomentumMatrix<N> {
         }
         self.mass = masses.whole;
         self.first = first;
-        self.lightness = masses.lightness;
-        self.center = first * self.lightness;
+        self.inverse_mass = masses.inverse_mass;
+        self.center = first * self.inverse_mass;
         self.inertia = inertia;
-        self.compliance = 1.0 / (inertia - first.dot(&self.center));
+        self.inverse_inertia = 1.0 / (inertia - first.dot(&self.center));
     }
 
     /// First moment about joint `i` of what lies outboard of it \[kg m\]; of a balance element likewise.
@@ -176,8 +176,8 @@ impl<const N: usize> MomentumMatrix<N> {
     /// H_b^-1 h: the motion of the base that has the momentum `h`, or its acceleration under a load.
     #[must_use]
     pub fn base_response(&self, h: Twist) -> Twist {
-        let angular = (h.angular - cross(self.center, h.linear)) * self.compliance;
-        Twist { linear: h.linear * self.lightness - perp(self.center) * angular, angular }
+        let angular = (h.angular - cross(self.center, h.linear)) * self.inverse_inertia;
+        Twist { linear: h.linear * self.inverse_mass - perp(self.center) * angular, angular }
     }
 }
 

@@ -27,14 +27,14 @@ pub fn perp(a: Vec2) -> Vec2 {
 
 /// A rotation in the plane, counter-clockwise.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Turn {
+pub struct Rotation {
     cos: f64,
     sin: f64,
 }
 
-memory!(Turn { cos, sin });
+memory!(Rotation { cos, sin });
 
-impl Turn {
+impl Rotation {
     /// By no angle.
     pub const NONE: Self = Self { cos: 1.0, sin: 0.0 };
 
@@ -61,7 +61,7 @@ impl Turn {
     /// half the time of a general turn.
     #[inline]
     #[must_use]
-    pub fn by_small(angle: f64) -> Self {
+    pub fn from_small_angle(angle: f64) -> Self {
         if angle.abs() > 0.03 {
             return Self::by(angle);
         }

@@ -42,7 +42,7 @@ pub struct Masses<const N: usize> {
     /// Mass of the whole system \[kg\].
     pub whole: f64,
     /// Inverse mass of the whole system \[1/kg\].
-    pub lightness: f64,
+    pub inverse_mass: f64,
 }
 
 impl<const N: usize> Masses<N> {
@@ -55,7 +55,7 @@ impl<const N: usize> Masses<N> {
             outboard += mass;
         }
         let whole = outboard + others;
-        Self { links, augmented, whole, lightness: 1.0 / whole }
+        Self { links, augmented, whole, inverse_mass: 1.0 / whole }
     }
 }
 

@@ -92,16 +92,22 @@ impl<const N: usize> Interval<N> {
         }
     }
 
-    /// A step of length `size` begins in `situation`, where the one before, the `past` one, has ended.
+    /// A step of length `size` begins in `situation`, where the one before, the previous step, has ended.
     #[inline]
-    pub(super) fn begin(&mut self, dynamics: &Dynamics<N>, situation: &Situation<N>, past: &Past, size: f64) {
+    pub(super) fn begin(
+        &mut self,
+        dynamics: &Dynamics<N>,
+        situation: &Situation<N>,
+        previous_step: &PreviousStep,
+        size: f64,
+    ) {
         if self.goes_on() {
-            let sum = self.outboard.total(dynamics, &situation.node, &past.loads());
+            let sum = self.outboard.total(dynamics, &situation.node, &previous_step.loads());
             self.outboard.restart(sum);
             return;
         }
         if size < SHORTEST {
-            self.previous = self.means(dynamics, situation, past);
+            self.previous = self.means(dynamics, situation, previous_step);
         }
         self.restart(situation);
     }
@@ -133,9 +139,14 @@ impl<const N: usize> Interval<N> {
         self.outboard.add(&(momentum(false) - momentum(true)));
     }
 
-    /// The means up to `situation`, where the last step, the `past` one, has ended.
+    /// The means up to `situation`, where the last step, the previous step, has ended.
     #[inline(never)]
-    pub(super) fn means(&self, dynamics: &Dynamics<N>, situation: &Situation<N>, past: &Past) -> Means<N> {
+    pub(super) fn means(
+        &self,
+        dynamics: &Dynamics<N>,
+        situation: &Situation<N>,
+        previous_step: &PreviousStep,
+    ) -> Means<N> {
         if self.goes_on() {
             return self.previous;
         }
@@ -143,11 +154,11 @@ impl<const N: usize> Interval<N> {
         let (before, impulse) = (&self.before, &self.impulse);
         let change = (state.velocity - before.state.velocity) * per_time;
         let mut room = None;
-        let load = past.loads().present(0.5 * past.size, &mut room);
+        let load = previous_step.loads().present(0.5 * previous_step.size, &mut room);
 
         let momentum = momentum_outboard(vehicle, situation, state.held);
         let momentum_before = momentum_outboard(vehicle, before, before.state.held);
-        let outboard_impulse = self.outboard.total(dynamics, &situation.node, &past.loads());
+        let outboard_impulse = self.outboard.total(dynamics, &situation.node, &previous_step.loads());
 
         let payload = |situation: &Situation<N>| {
             if situation.state.held { momentum_of_payload(dynamics, situation) } else { Vec2::zeros() }
@@ -168,10 +179,16 @@ impl<const N: usize> Interval<N> {
     }
 
     /// Works out what waits for somebody to ask, and passes all by a tape.
-    pub(super) fn pass(&mut self, dynamics: &Dynamics<N>, situation: &Situation<N>, past: &Past, tape: &mut Tape<'_>) {
-        let mut sum = self.outboard.total(dynamics, &situation.node, &past.loads());
+    pub(super) fn pass(
+        &mut self,
+        dynamics: &Dynamics<N>,
+        situation: &Situation<N>,
+        previous_step: &PreviousStep,
+        tape: &mut Tape<'_>,
+    ) {
+        let mut sum = self.outboard.total(dynamics, &situation.node, &previous_step.loads());
         if !self.goes_on() {
-            self.previous = self.means(dynamics, situation, past);
+            self.previous = self.means(dynamics, situation, previous_step);
             self.restart(situation);
             sum = SVector::zeros();
         }
@@ -184,7 +201,7 @@ impl<const N: usize> Interval<N> {
 
 /// What acted during the last step.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Past {
+pub(super) struct PreviousStep {
     /// Loads at its beginning.
     pub begin: Load,
     /// Change of the loads per second, if there was any.
@@ -193,9 +210,9 @@ pub(super) struct Past {
     pub size: f64,
 }
 
-memory!(Past { begin, change, size });
+memory!(PreviousStep { begin, change, size });
 
-impl Past {
+impl PreviousStep {
     /// Nothing has been yet.
     pub const NONE: Self = Self { begin: Load::NONE, change: None, size: 0.0 };
 
@@ -212,6 +229,6 @@ fn momentum_outboard<const N: usize>(vehicle: &Vehicle<N>, situation: &Situation
 }
 
 fn momentum_of_payload<const N: usize>(dynamics: &Dynamics<N>, situation: &Situation<N>) -> Vec2 {
-    let Situation { turn, node, .. } = situation;
-    dynamics.velocity_at(node, *turn, node.posture.payload, situation.base()) * dynamics.vehicle.payload_mass
+    let Situation { rotation, node, .. } = situation;
+    dynamics.velocity_at(node, *rotation, node.posture.payload, situation.base()) * dynamics.vehicle.payload_mass
 }

@@ -2,8 +2,8 @@
 
 use nalgebra::SVector;
 
-use super::means::{Interval, Past};
-use super::{Inputs, Outputs, Rates, Simulation};
+use super::means::{Interval, PreviousStep};
+use super::{Inputs, OutputDerivatives, Outputs, Simulation};
 use crate::bytes::{Memory, Tape};
 use crate::error::Result;
 use crate::mechanics::dynamics::{Driven, Dynamics, Instant, Loads, Motion, Situation, Torques};
@@ -29,14 +29,14 @@ struct Finished<const N: usize> {
     /// Accelerations of the coordinates at the end \[rad/s2, m/s2\].
     slope: SVector<f64, N>,
     /// What acted.
-    past: Past,
+    previous_step: PreviousStep,
 }
 
-memory!(Finished<N> { slope, past });
+memory!(Finished<N> { slope, previous_step });
 
 impl<const N: usize> Default for Finished<N> {
     fn default() -> Self {
-        Self { slope: SVector::zeros(), past: Past::NONE }
+        Self { slope: SVector::zeros(), previous_step: PreviousStep::NONE }
     }
 }
 
@@ -56,14 +56,14 @@ impl<const N: usize> Plant<N> {
     /// What can be said of the end of a step.
     fn at_end(&self, finished: &Finished<N>) -> Instant {
         let mut room = None;
-        let load = finished.past.loads().present(finished.past.size, &mut room);
+        let load = finished.previous_step.loads().present(finished.previous_step.size, &mut room);
         self.dynamics.at_end(&self.situation, &finished.slope, load)
     }
 }
 
 /// What acted during the finished step, if there is one.
-fn past<const N: usize>(finished: &Option<Finished<N>>) -> &Past {
-    finished.as_ref().map_or(&Past::NONE, |finished| &finished.past)
+fn previous_step<const N: usize>(finished: &Option<Finished<N>>) -> &PreviousStep {
+    finished.as_ref().map_or(&PreviousStep::NONE, |finished| &finished.previous_step)
 }
 
 impl<const N: usize> Simulation for Plant<N> {
@@ -82,7 +82,7 @@ impl<const N: usize> Simulation for Plant<N> {
     }
 
     fn step(&mut self, inputs: &Inputs, t: f64, size: f64, outputs: &mut Outputs) -> Result<()> {
-        self.interval.begin(&self.dynamics, &self.situation, past(&self.finished), size);
+        self.interval.begin(&self.dynamics, &self.situation, previous_step(&self.finished), size);
         match (self.situation.state.held, inputs.grasp) {
             (false, true) => self.dynamics.grasp(&mut self.situation),
             (true, false) => {
@@ -118,19 +118,19 @@ impl<const N: usize> Simulation for Plant<N> {
         };
         self.situation.state.check(t + size)?;
         self.interval.add(impulse, size);
-        let past = Past { begin: inputs.load, change: change.copied(), size };
-        self.finished = Some(Finished { slope: motion.slope, past });
+        let previous_step = PreviousStep { begin: inputs.load, change: change.copied(), size };
+        self.finished = Some(Finished { slope: motion.slope, previous_step });
         self.write_state(outputs);
         Ok(())
     }
 
     fn observe(&self, time: f64, outputs: &mut Outputs) -> Result<()> {
-        let Situation { turn, node, .. } = &self.situation;
+        let Situation { rotation, node, .. } = &self.situation;
         let tip = node.posture.end_effector;
         outputs.end_effector = self.situation.place(tip);
-        outputs.end_effector_velocity = self.dynamics.velocity_at(node, *turn, tip, self.situation.base());
+        outputs.end_effector_velocity = self.dynamics.velocity_at(node, *rotation, tip, self.situation.base());
         outputs.center_of_mass = self.situation.place(node.matrix.first / node.matrix.mass);
-        self.interval.means(&self.dynamics, &self.situation, past(&self.finished)).write(outputs);
+        self.interval.means(&self.dynamics, &self.situation, previous_step(&self.finished)).write(outputs);
         if let Some(finished) = &self.finished {
             let now = self.at_end(finished);
             outputs.acceleration = now.acceleration;
@@ -142,22 +142,23 @@ impl<const N: usize> Simulation for Plant<N> {
         outputs.check(time)
     }
 
-    fn rates(&self) -> Rates {
-        let Some(finished) = &self.finished else { return Rates::default() };
-        let (Instant { acceleration, .. }, past) = (self.at_end(finished), &finished.past);
-        let control = self.dynamics.control_rate(&self.situation, &acceleration, &past.loads(), past.size);
+    fn output_derivatives(&self) -> OutputDerivatives {
+        let Some(finished) = &self.finished else { return OutputDerivatives::default() };
+        let (Instant { acceleration, .. }, previous_step) = (self.at_end(finished), &finished.previous_step);
+        let control =
+            self.dynamics.control_rate(&self.situation, &acceleration, &previous_step.loads(), previous_step.size);
         let now = self.dynamics.rates_at_end(&self.situation, &finished.slope, &acceleration);
-        let mut rates = Rates {
+        let mut derivatives = OutputDerivatives {
             end_effector_velocity: now.tip_velocity,
             thrust: control.x,
             torque: control.y,
             momentum: now.momentum,
             center_of_mass: self.situation.state.momentum.xy() / self.situation.node.matrix.mass,
             support_force: now.support,
-            ..Rates::default()
+            ..OutputDerivatives::default()
         };
-        rates.coordinates[..N].copy_from_slice(finished.slope.as_slice());
-        rates
+        derivatives.coordinates[..N].copy_from_slice(finished.slope.as_slice());
+        derivatives
     }
 
     fn check_memory(&self) -> Result<()> {
@@ -176,7 +177,7 @@ impl<const N: usize> Memory for Plant<N> {
         let Self { dynamics, situation, interval, driven, finished } = self;
         dynamics.pass_gains(tape);
         pass!(tape: situation);
-        interval.pass(dynamics, situation, past(finished), tape);
+        interval.pass(dynamics, situation, previous_step(finished), tape);
         tape.settled(driven);
         pass!(tape: finished);
     }

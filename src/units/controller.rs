@@ -5,7 +5,7 @@ mod derivatives;
 use super::start::{BALANCE, GEOMETRY, PLAN};
 use super::{Balancing, declare_time};
 use crate::bytes::{Memory, Tape};
-use crate::control::{self, Inputs, Outputs, Rates};
+use crate::control::{self, Inputs, OutputDerivatives, Outputs};
 use crate::error::Error;
 use crate::fmi::{CommunicationStep, Model};
 use crate::parameters::culprit::blame;
@@ -27,7 +27,7 @@ pub struct Data {
     /// Outputs.
     pub outputs: Outputs,
     /// Derivatives of outputs, where no other output is that; see [`Model::differentiate`].
-    pub rates: Rates,
+    pub rates: OutputDerivatives,
 }
 
 impl AsMut<Parameters> for Data {
@@ -78,7 +78,7 @@ impl Model for ControllerUnit {
             parameters: default_parameters(structure),
             inputs: Inputs::default(),
             outputs: Outputs::default(),
-            rates: Rates::default(),
+            rates: OutputDerivatives::default(),
         }
     }
 
@@ -108,7 +108,7 @@ impl Model for ControllerUnit {
     }
 
     fn differentiate(&self, data: &mut Data, elapsed: f64) {
-        data.rates = self.0.rates(elapsed);
+        data.rates = self.0.output_derivatives(elapsed);
     }
 
     fn restore(structure: Structure, data: &Data, tape: &mut Tape<'_>) -> Result<Self, Error> {

@@ -12,7 +12,7 @@ use crate::parameters::culprit::blame;
 use crate::parameters::defaults::default_parameters;
 use crate::parameters::{self, Parameters, Structure};
 use crate::pass;
-use crate::plant::{self, Inputs, Outputs, Rates};
+use crate::plant::{self, Inputs, OutputDerivatives, Outputs};
 use crate::variables::Table;
 
 /// All that the host sees of the plant.
@@ -27,7 +27,7 @@ pub struct Data {
     /// Outputs.
     pub outputs: Outputs,
     /// Derivatives of outputs, where no other output is that; see [`Model::differentiate`].
-    pub rates: Rates,
+    pub rates: OutputDerivatives,
 }
 
 impl AsMut<Parameters> for Data {
@@ -79,7 +79,7 @@ impl Model for PlantUnit {
             parameters: default_parameters(structure),
             inputs: Inputs::default(),
             outputs: Outputs::default(),
-            rates: Rates::default(),
+            rates: OutputDerivatives::default(),
         }
     }
 
@@ -113,7 +113,7 @@ impl Model for PlantUnit {
     }
 
     fn differentiate(&self, data: &mut Data, _: f64) {
-        data.rates = self.0.rates();
+        data.rates = self.0.output_derivatives();
     }
 
     fn restore(structure: Structure, data: &Data, tape: &mut Tape<'_>) -> Result<Self, Error> {

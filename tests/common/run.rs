@@ -57,8 +57,8 @@ impl Run {
         all
     }
 
-    pub fn rates(&self) -> plant::Rates {
-        self.simulation.rates()
+    pub fn rates(&self) -> plant::OutputDerivatives {
+        self.simulation.output_derivatives()
     }
 
     pub fn bodies(&self) -> Vec<Body> {

@@ -3,7 +3,7 @@
 use std::process::Command;
 use std::time::Instant;
 
-use fmu_build::coupling::{Coupling, Order, Pair, Schedule};
+use fmu_build::coupling::{Pair, Schedule};
 use fmu_build::fmu::{Instance, Selection};
 use uam::parameters::{Discretization, Resolution};
 use uam::variables::options::Choice;
@@ -44,11 +44,11 @@ fn commands_only(controller: &mut Instance, plant: &mut Instance) -> f64 {
 
 /// Every output goes to the input of the same name: seconds per simulated second.
 fn all_values(pair: &Pair, discretization: Discretization, resolution: Resolution) -> f64 {
-    let mut coupling = Coupling::new(pair).unwrap();
+    let mut coupling = pair.couple().unwrap();
     choose(&mut coupling.controller, discretization, resolution);
     let schedule = Schedule::new(0.0, DURATION, STEP).unwrap();
     let begin = Instant::now();
-    coupling.run(&schedule, Order::Parallel, &mut |_, _, _| Ok(())).unwrap();
+    coupling.run(&schedule, &mut |_, _, _| Ok(())).unwrap();
     begin.elapsed().as_secs_f64() / DURATION
 }
 

@@ -13,7 +13,7 @@ use libloading::Library;
 use uam::control::{Inputs, Outputs, Problem, Response, Task};
 use uam::mechanics::dynamics::{Dynamics, Node, State};
 use uam::mechanics::momentum::Twist;
-use uam::mechanics::planar::{Turn, vec2};
+use uam::mechanics::planar::{Rotation, vec2};
 use uam::parameters::{BaseModel, Discretization, PathAxes, Resolution};
 use uam::scenarios::default_parameters;
 use uam::variables::options::Choice;
@@ -98,7 +98,7 @@ impl Ours {
         for _ in 0..times {
             q.add_scalar_mut(turn);
             node.take(vehicle, &q, false, &self.start.rate);
-            let response = Response::new(&self.dynamics, &node, Turn::NONE, Twist::ZERO, false);
+            let response = Response::new(&self.dynamics, &node, Rotation::NONE, Twist::ZERO, false);
             let problem = Problem {
                 path: response.jacobian,
                 velocity: target - response.end_effector_free,

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use anyhow::{Result, anyhow};
-use fmu_build::coupling::{Order, Schedule};
+use fmu_build::coupling::Schedule;
 use fmu_build::record::{Names, write_csv};
 use fmu_build::run::run;
 use fmu_build::{files, report};
@@ -20,7 +20,6 @@ pub fn execute(arguments: &SimulateArguments, out: &Path) -> Result<()> {
     let schedule =
         Schedule::new(0.0, arguments.stop.unwrap_or(scenario.duration), arguments.step.unwrap_or(scenario.step))?;
     files::create_folder(out)?;
-    let order = if arguments.sequential { Order::PlantFirst } else { Order::Parallel };
 
     let pairs = Pairs::build([scenario.structure])?;
     let pair = pairs.of(scenario.structure)?;
@@ -30,7 +29,7 @@ pub fn execute(arguments: &SimulateArguments, out: &Path) -> Result<()> {
         Names::standard(scenario.structure)
     };
     let progress = Progress::new(schedule.steps() as u64 + 1, "Simulating")?;
-    let run = run(pair, &scenario, &schedule, order, &names, &|| progress.point());
+    let run = run(pair, &scenario, &schedule, &names, &|| progress.point());
     progress.finish();
     let run = run?;
 

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use maud::{Markup, html};
-use uam::mechanics::planar::{Turn, Vec2, vec2};
+use uam::mechanics::planar::{Rotation, Vec2, vec2};
 use uam::reference::ReferenceKind;
 
 use super::Series;
@@ -95,7 +95,7 @@ impl Window {
 pub fn strips(series: &[Series<'_>], instants: &[f64]) -> Result<Markup, NotRecorded> {
     let frames = series.iter().map(|series| poses(series, instants)).collect::<Result<Vec<_>, _>>()?;
     let window = Window::around(frames.iter().flatten().flat_map(|(_, pose)| {
-        let sides = [-SPAN, SPAN].map(|x| pose.base + Turn::by(pose.roll).apply(vec2(x, 0.05)));
+        let sides = [-SPAN, SPAN].map(|x| pose.base + Rotation::by(pose.roll).apply(vec2(x, 0.05)));
         let below = pose.hand - vec2(0.0, SPRING + PAYLOAD);
         pose.joints.iter().copied().chain(sides).chain([below]).collect::<Vec<_>>()
     }));
@@ -167,7 +167,7 @@ fn frame(series: &Series<'_>, pose: &Pose, capture: Option<Vec2>, window: Window
 
 /// Frame, hub and rotors of a multicopter, seen from the front.
 fn uav(pose: &Pose, window: Window) -> Markup {
-    let turn = Turn::by(pose.roll);
+    let turn = Rotation::by(pose.roll);
     let at = |x: f64, y: f64| pose.base + turn.apply(vec2(x, y));
     let line = |points: &[(f64, f64)]| window.path(points.iter().map(|&(x, y)| at(x, y)));
     let hub = [(-0.055, -0.018), (0.055, -0.018), (0.045, 0.028), (-0.045, 0.028)];

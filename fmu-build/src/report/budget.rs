@@ -172,9 +172,8 @@ pub fn html(scenario: &Scenario, curves: &[Curve]) -> Result<String, Error> {
 fn figure(curves: &[Curve], measure: &Measure) -> Result<Markup, Error> {
     // What coincides with another curve would hide it.
     let apart = |&curve: &&Curve| {
-        let Variant { discretization, order, pilot, .. } = curve.variant;
-        let known = pilot != Pilot::Sampled && order != Order::PlantFirst;
-        curve.variant == EULER || (discretization == Discretization::Exact && known)
+        let Variant { discretization, pilot, .. } = curve.variant;
+        curve.variant == EULER || (discretization == Discretization::Exact && pilot != Pilot::Sampled)
     };
     // The colours come again where there are more curves.
     let paints = COLOURS.into_iter().cycle().map(|rgb| Paint { rgb, width: 4 });

@@ -1,6 +1,6 @@
 //! Where everything is at one row of a recording, for drawings.
 
-use uam::mechanics::planar::{Turn, Vec2, vec2};
+use uam::mechanics::planar::{Rotation, Vec2, vec2};
 use uam::parameters::Balance;
 use uam::scenarios::Scenario;
 
@@ -34,14 +34,14 @@ impl Pose {
         let value = |name: &str| Ok(recording.column(name)?.get(row).copied().unwrap_or_default());
         let parameters = &scenario.parameters;
         let (base, roll) = (vec2(value("base.x")?, value("base.y")?), value("base.roll")?);
-        let body = Turn::by(roll);
+        let body = Rotation::by(roll);
         let mut angle = roll;
         let mut joints = vec![base + body.apply(vec2(parameters.mount.x, parameters.mount.y))];
         let mut hand = joints[0];
         for (i, link) in parameters.links.iter().take(scenario.structure.links).enumerate() {
             angle += value(&format!("joint[{}].position", i + 1))?;
             let from = joints[i];
-            let along = Turn::by(angle).down();
+            let along = Rotation::by(angle).down();
             hand = from + parameters.payload.com * along;
             joints.push(from + link.length * along);
         }
@@ -53,7 +53,7 @@ impl Pose {
                 counterweight = Some(base + body.apply(place));
             }
             Balance::Element => {
-                let along = Turn::by(roll + value("balance_element.position")?).down();
+                let along = Rotation::by(roll + value("balance_element.position")?).down();
                 balance_element = Some(base + parameters.balance_element.com * along);
             }
         }

@@ -2,7 +2,7 @@
 
 use std::io;
 
-use uam::variables::unit::Unit;
+use uam::variables::unit::PhysicalUnit;
 
 use crate::xml::{self, Ending, Xml};
 
@@ -14,7 +14,7 @@ pub const SSD: &str = "http://ssp-standard.org/SSP1/SystemStructureDescription";
 pub const SSV: &str = "http://ssp-standard.org/SSP1/SystemStructureParameterValues";
 
 /// Definitions of units, inside the element `name`, which must not be empty: without units there is none.
-pub fn write_units(xml: &mut Xml, name: &str, units: &[&Unit]) -> io::Result<()> {
+pub fn write_units(xml: &mut Xml, name: &str, units: &[&PhysicalUnit]) -> io::Result<()> {
     if units.is_empty() {
         return Ok(());
     }

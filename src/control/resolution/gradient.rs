@@ -8,15 +8,15 @@ use crate::mechanics::vehicle::Vehicle;
 
 /// The rates that the joints would rather have: `gain` \[rad/(m2 s)\] times the gradient.
 pub(super) fn preferred<const N: usize>(vehicle: &Vehicle<N>, situation: &Situation<N>, gain: f64) -> SVector<f64, N> {
-    let Situation { turn, node, .. } = situation;
+    let Situation { rotation, node, .. } = situation;
     let mass = node.matrix.mass - vehicle.uav_mass;
     if mass <= 0.0 {
         return SVector::zeros();
     }
-    let distance = turn.apply(node.matrix.first).x / mass;
+    let distance = rotation.apply(node.matrix.first).x / mass;
     SVector::from_fn(|i, _| {
         // A joint moves first moments just as it gives momentum.
-        let change = turn.apply(node.matrix.columns[i].linear).x / mass;
+        let change = rotation.apply(node.matrix.columns[i].linear).x / mass;
         gain * 2.0 * distance * change * vehicle.revolute[i]
     })
 }

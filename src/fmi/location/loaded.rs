@@ -46,7 +46,7 @@ fn path() -> Option<PathBuf> {
     /// And may be unloaded nevertheless.
     const UNCHANGED_REFCOUNT: u32 = 2;
     /// No path is longer.
-    const LONGEST: u32 = 1 << 15;
+    const LONGEST_PATH: u32 = 1 << 15;
 
     let mut module = ptr::null_mut();
     let flags = FROM_ADDRESS | UNCHANGED_REFCOUNT;
@@ -54,9 +54,9 @@ fn path() -> Option<PathBuf> {
     if unsafe { GetModuleHandleExW(flags, (path as *const ()).cast(), &raw mut module) } == 0 {
         return None;
     }
-    let mut name = vec![0; LONGEST as usize];
+    let mut name = vec![0; LONGEST_PATH as usize];
     // SAFETY: there are so many places for the answer.
-    let length = unsafe { GetModuleFileNameW(module, name.as_mut_ptr(), LONGEST) };
+    let length = unsafe { GetModuleFileNameW(module, name.as_mut_ptr(), LONGEST_PATH) };
     name.truncate(length as usize);
     (length > 0).then(|| PathBuf::from(OsString::from_wide(&name)))
 }

@@ -9,7 +9,7 @@ use super::error::Error;
 
 /// Most elements of a list. Hosts may name a variable more than once, and give more room than is needed; a
 /// length beyond this is a mistake, and believing it would mean to read whatever lies there.
-pub const LONGEST: usize = 1 << 16;
+pub const MOST_ELEMENTS: usize = 1 << 16;
 
 /// Most bytes of a state, for which hosts may keep as much room as they like: a length beyond this is a mistake.
 pub const MOST_BYTES: usize = 1 << 30;
@@ -17,7 +17,7 @@ pub const MOST_BYTES: usize = 1 << 30;
 /// The `count` elements at `data`. Nothing is read if `count` is 0.
 ///
 /// # Errors
-/// If there are more than [`LONGEST`], or the pointer is null or not aligned.
+/// If there are more than [`MOST_ELEMENTS`], or the pointer is null or not aligned.
 ///
 /// # Safety
 /// A pointer that is neither null nor misaligned must be good for `count` elements.
@@ -26,8 +26,8 @@ pub unsafe fn list<'a, T>(argument: &'static str, data: *const T, count: usize) 
     if count == 0 {
         return Ok(&[]);
     }
-    check(argument, data, count, LONGEST)?;
-    // SAFETY: promised by the caller; [`LONGEST`] is far below what a slice may span.
+    check(argument, data, count, MOST_ELEMENTS)?;
+    // SAFETY: promised by the caller; [`MOST_ELEMENTS`] is far below what a slice may span.
     Ok(unsafe { slice::from_raw_parts(data, count) })
 }
 
@@ -43,8 +43,8 @@ pub unsafe fn list_mut<'a, T>(argument: &'static str, data: *mut T, count: usize
     if count == 0 {
         return Ok(&mut []);
     }
-    check(argument, data, count, LONGEST)?;
-    // SAFETY: promised by the caller; [`LONGEST`] is far below what a slice may span.
+    check(argument, data, count, MOST_ELEMENTS)?;
+    // SAFETY: promised by the caller; [`MOST_ELEMENTS`] is far below what a slice may span.
     Ok(unsafe { slice::from_raw_parts_mut(data, count) })
 }
 

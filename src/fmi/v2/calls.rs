@@ -17,7 +17,7 @@ use super::component::{self, Component};
 use super::error::Error;
 use super::instance::{Instance, Scalar};
 use super::logger::{Category, Logger};
-use super::state::{Call, State};
+use super::phase::{Call, Phase};
 use crate::fmi::environment::Host;
 use crate::fmi::identity::Identity;
 use crate::fmi::model::Model;
@@ -221,7 +221,7 @@ pub unsafe fn get_status<M: Model>(handle: Handle, kind: c::StatusKind, value: *
     // SAFETY: promised by the caller.
     unsafe {
         answer::<M, _>(handle, Call::GetStatus, (kind, status_kind::DO_STEP_STATUS), value, |instance| {
-            if instance.state() == State::Failed { Status::Error } else { Status::Ok }
+            if instance.phase() == Phase::Failed { Status::Error } else { Status::Ok }
         })
     }
 }

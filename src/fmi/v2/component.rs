@@ -4,7 +4,7 @@ use super::c_types::{Component as Handle, Status};
 use super::error::Error;
 use super::instance::Instance;
 use super::logger::{Category, Logger};
-use super::state::Call;
+use super::phase::Call;
 use super::states;
 use crate::fmi::environment::Host;
 use crate::fmi::hash::fnv1a;

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::state::{Call, State};
+use super::phase::{Call, Phase};
 use crate::fmi::identity::UnknownGuid;
 use crate::variables::Bounds;
 use crate::variables::options::Item;
@@ -11,12 +11,12 @@ use crate::variables::options::Item;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Error {
     /// A call that the state machine does not allow now.
-    #[error("not allowed in the state \"{state}\"; allowed in: {}", States(*.call))]
+    #[error("not allowed in the state \"{phase}\"; allowed in: {}", States(*.call))]
     OutOfOrder {
         /// What was called.
         call: Call,
         /// The state of the instance.
-        state: State,
+        phase: Phase,
     },
     /// An optional ability of the standard that the unit does not declare.
     #[error("not available: the model description declares {flag} = \"{value}\"")]
@@ -37,6 +37,9 @@ pub enum Error {
         /// Number of variables.
         count: usize,
     },
+    /// A name that no variable has.
+    #[error("there is no variable `{0}`")]
+    UnknownName(String),
     /// A variable that cannot be read or written as this type.
     #[error("{name} is of type {found}, not {requested}")]
     Type {
@@ -192,12 +195,12 @@ struct States(Call);
 
 impl fmt::Display for States {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut allowed = State::ALL.into_iter().filter(|state| self.0.allowed_in(*state));
+        let mut allowed = Phase::ALL.into_iter().filter(|phase| self.0.allowed_in(*phase));
         match allowed.next() {
             None => write!(f, "none"),
             Some(first) => {
                 write!(f, "{first}")?;
-                allowed.try_for_each(|state| write!(f, ", {state}"))
+                allowed.try_for_each(|phase| write!(f, ", {phase}"))
             }
         }
     }

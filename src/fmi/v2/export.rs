@@ -8,7 +8,7 @@ macro_rules! export_fmi2 {
         const _: () = {
             use $crate::fmi::v2::c_types::*;
             use $crate::fmi::v2::calls;
-            use $crate::fmi::v2::state::Call;
+            use $crate::fmi::v2::phase::Call;
 
             $crate::export_fmi2! { @functions $model;
                 fmi2GetTypesPlatform() -> Text = calls::types_platform();

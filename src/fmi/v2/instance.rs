@@ -4,7 +4,7 @@ use std::cell::OnceCell;
 use std::fmt::Display;
 
 use super::error::Error;
-use super::state::{Call, State};
+use super::phase::{Call, Phase};
 use crate::fmi::identity::Identity;
 use crate::fmi::model::{CommunicationStep, Model};
 use crate::variables::{Bounds, Causality, Kind, Table, Variability, Variable};
@@ -34,14 +34,14 @@ const GAP_PER_STEP: f64 = 0.1;
 pub struct Instance<M: Model> {
     unit: Identity<M>,
     table: Table<M::Data>,
-    now: Situation<M>,
+    now: Snapshot<M>,
     /// The beginning of states as bytes, once there were any.
     title: OnceCell<String>,
 }
 
 /// All that influences the future of an instance; a saved FMU state is a copy of this.
-struct Situation<M: Model> {
-    state: State,
+struct Snapshot<M: Model> {
+    phase: Phase,
     data: M::Data,
     /// Before the simulation: present only while it agrees with the parameters and inputs in `data`,
     /// and the outputs in `data` are then right.
@@ -56,13 +56,13 @@ struct Situation<M: Model> {
     retuned: bool,
 }
 
-impl<M: Model> Clone for Situation<M> {
+impl<M: Model> Clone for Snapshot<M> {
     // One copy of it in the library: it is long, and needed in many places.
     #[inline(never)]
     fn clone(&self) -> Self {
-        let Self { state, data, model, start_time, stop_time, time, observed, retuned } = self;
+        let Self { phase, data, model, start_time, stop_time, time, observed, retuned } = self;
         Self {
-            state: *state,
+            phase: *phase,
             data: data.clone(),
             model: model.clone(),
             start_time: *start_time,
@@ -74,10 +74,10 @@ impl<M: Model> Clone for Situation<M> {
     }
 }
 
-impl<M: Model> Situation<M> {
+impl<M: Model> Snapshot<M> {
     fn new(start: M::Data) -> Self {
         Self {
-            state: State::Instantiated,
+            phase: Phase::Instantiated,
             data: start,
             model: None,
             start_time: 0.0,
@@ -89,7 +89,7 @@ impl<M: Model> Situation<M> {
     }
 
     fn fail(&mut self) {
-        self.state = State::Failed;
+        self.phase = Phase::Failed;
         // Nothing more is computed.
         self.observed = true;
     }
@@ -118,7 +118,7 @@ impl<M: Model> Instance<M> {
     /// A new instance with start values.
     #[must_use]
     pub fn new(unit: Identity<M>) -> Self {
-        let (table, now) = (unit.table(), Situation::new(unit.start.clone()));
+        let (table, now) = (unit.table(), Snapshot::new(unit.start.clone()));
         let mut instance = Self { unit, table, now, title: OnceCell::new() };
         instance.go_to(0.0);
         instance
@@ -126,8 +126,8 @@ impl<M: Model> Instance<M> {
 
     /// Where the instance stands.
     #[must_use]
-    pub fn state(&self) -> State {
-        self.now.state
+    pub fn phase(&self) -> Phase {
+        self.now.phase
     }
 
     /// Time up to which the simulation went well \[s\].
@@ -147,11 +147,11 @@ impl<M: Model> Instance<M> {
     /// # Errors
     /// If it is not.
     pub fn permit(&self, call: Call) -> Result<(), Error> {
-        let state = self.now.state;
-        if call.allowed_in(state) { Ok(()) } else { Err(Error::OutOfOrder { call, state }) }
+        let phase = self.now.phase;
+        if call.allowed_in(phase) { Ok(()) } else { Err(Error::OutOfOrder { call, phase }) }
     }
 
-    /// Gives the simulation up: after this only what [`State::Failed`] allows is possible.
+    /// Gives the simulation up: after this only what [`Phase::Failed`] allows is possible.
     pub fn fail(&mut self) {
         self.now.fail();
     }
@@ -181,7 +181,7 @@ impl<M: Model> Instance<M> {
     /// If the state does not allow it.
     pub fn enter_initialization(&mut self) -> Result<(), Error> {
         self.permit(Call::EnterInitializationMode)?;
-        self.now.state = State::Initialization;
+        self.now.phase = Phase::Initialization;
         Ok(())
     }
 
@@ -192,7 +192,7 @@ impl<M: Model> Instance<M> {
     pub fn exit_initialization(&mut self) -> Result<(), Error> {
         self.permit(Call::ExitInitializationMode)?;
         self.initialize()?;
-        self.now.state = State::Running;
+        self.now.phase = Phase::Running;
         Ok(())
     }
 
@@ -226,7 +226,7 @@ impl<M: Model> Instance<M> {
         if size == 0.0 {
             return Ok(());
         }
-        let Situation { model, data, retuned, .. } = &mut self.now;
+        let Snapshot { model, data, retuned, .. } = &mut self.now;
         let Some(model) = model else { return Err(self.failed(step, &"the model is missing")) };
         if std::mem::take(retuned) {
             model.tune(data);
@@ -246,7 +246,7 @@ impl<M: Model> Instance<M> {
     }
 
     fn checked_step(&self, from: f64, size: f64) -> Result<CommunicationStep, Error> {
-        let Situation { start_time, stop_time, time, .. } = self.now;
+        let Snapshot { start_time, stop_time, time, .. } = self.now;
         let step = CommunicationStep { start_time, from, size };
         let gap = gap_at(time, size);
         // No comparison holds for what is no number.
@@ -261,7 +261,7 @@ impl<M: Model> Instance<M> {
     #[cold]
     #[inline(never)]
     fn no_step(&self, from: f64, size: f64) -> Error {
-        let Situation { stop_time, time, .. } = self.now;
+        let Snapshot { stop_time, time, .. } = self.now;
         let gap = gap_at(time, size);
         if !from.is_finite() {
             return argument("currentCommunicationPoint", "a finite number", from);
@@ -284,13 +284,13 @@ impl<M: Model> Instance<M> {
     /// If it has not begun.
     pub fn terminate(&mut self) -> Result<(), Error> {
         self.permit(Call::Terminate)?;
-        self.now.state = State::Terminated;
+        self.now.phase = Phase::Terminated;
         Ok(())
     }
 
     /// Makes the instance as new, in any state.
     pub fn reset(&mut self) {
-        self.now = Situation::new(self.unit.start.clone());
+        self.now = Snapshot::new(self.unit.start.clone());
         self.go_to(0.0);
     }
 
@@ -304,7 +304,7 @@ impl<M: Model> Instance<M> {
         let is_output = |reference: &u32| {
             lookup(self.table.variables(), *reference).is_ok_and(|variable| variable.causality == Causality::Output)
         };
-        if self.now.state.precedes_simulation() && references.iter().any(is_output) {
+        if self.now.phase.precedes_simulation() && references.iter().any(is_output) {
             self.initialize()?;
         }
         let (variables, now) = (self.table.variables(), &mut self.now);
@@ -325,11 +325,11 @@ impl<M: Model> Instance<M> {
     /// not admissible.
     pub fn set<T: Scalar>(&mut self, references: &[u32], values: &[T]) -> Result<(), Error> {
         self.permit(T::SET)?;
-        let (variables, state) = (self.table.variables(), self.now.state);
-        let Situation { data, retuned, .. } = &mut self.now;
+        let (variables, phase) = (self.table.variables(), self.now.phase);
+        let Snapshot { data, retuned, .. } = &mut self.now;
         for (reference, value) in references.iter().zip(values) {
             let variable = lookup(variables, *reference)?;
-            if !settable(variable, state) {
+            if !settable(variable, phase) {
                 return Err(not_settable(variable));
             }
             if !value.fits(variable, data) {
@@ -341,7 +341,7 @@ impl<M: Model> Instance<M> {
             *retuned |= variable.causality == Causality::Parameter;
             value.assign(variable, data);
         }
-        if self.now.state.precedes_simulation() && !references.is_empty() {
+        if self.now.phase.precedes_simulation() && !references.is_empty() {
             self.now.model = None;
         }
         Ok(())
@@ -388,11 +388,11 @@ fn lookup<D>(variables: &[Variable<D>], reference: u32) -> Result<&Variable<D>, 
 
 /// Whether causality and variability of a variable allow that it is set in `state`.
 #[inline]
-fn settable<D>(variable: &Variable<D>, state: State) -> bool {
+fn settable<D>(variable: &Variable<D>, phase: Phase) -> bool {
     // Inputs first: they are set most often.
     variable.causality == Causality::Input
         || variable.causality == Causality::Parameter
-            && (variable.variability != Variability::Fixed || state.precedes_simulation())
+            && (variable.variability != Variability::Fixed || phase.precedes_simulation())
 }
 
 /// Why it is not [`settable`].

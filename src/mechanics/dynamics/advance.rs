@@ -3,16 +3,16 @@
 
 use nalgebra::{SVector, Vector3};
 
-use super::law::{Flow, Scene};
+use super::law::{Flow, StepContext};
 use super::runge_kutta::Internal;
 use super::{Account, Dynamics, Impulse, Load, Loads, Motion, Node, Situation, State, in_inertial_frame};
 use crate::autopilot::AutopilotMode;
 use crate::error::Result;
-use crate::mechanics::planar::{Turn, Vec2, vec2};
+use crate::mechanics::planar::{Rotation, Vec2, vec2};
 use crate::mechanics::vehicle::Balancer;
 
 /// Longest internal step \[s\]; a millisecond that is not quite one, by rounding, is not cut in two.
-const LONGEST: f64 = 1.05e-3;
+const LONGEST_INTERNAL_STEP: f64 = 1.05e-3;
 
 /// Longest internal step times the fastest rate of control or turning: order 4 leaves 1e-12 of the
 /// amplitude there.
@@ -56,11 +56,11 @@ impl<const N: usize> Dynamics<N> {
         let mut until_sample = self.sample(&mut situation.state, loads.begin, t);
         let sample_time = if until_sample < f64::INFINITY { self.autopilot.sample_time } else { f64::INFINITY };
         let mut flow = situation.flow(self.base);
-        let Situation { state, turn, node } = situation;
+        let Situation { state, rotation, node } = situation;
         let (start, momentum) = (state.position, state.momentum);
         node.move_at(&motion.rate);
         state.contact = self.touches(&flow, node, state.held);
-        let mut scene = Scene {
+        let mut context = StepContext {
             loads,
             elapsed: 0.0,
             held: state.held,
@@ -71,28 +71,28 @@ impl<const N: usize> Dynamics<N> {
         let turning = self.fastest_turning(motion, size);
         let mut stuck = false;
         let mut room = None;
-        while scene.elapsed < size {
-            let left = size - scene.elapsed;
+        while context.elapsed < size {
+            let left = size - context.elapsed;
             let step = account.next(self, node, loads);
             (step.nodes[0], step.from) = (*node, flow);
-            self.law(&mut step.rates[0], &flow, node, loads.present(scene.elapsed, &mut room), &scene);
-            let longest = self.longest_internal_step(step, turning, scene.contact);
+            self.law(&mut step.rates[0], &flow, node, loads.present(context.elapsed, &mut room), &context);
+            let longest = self.longest_internal_step(step, turning, context.contact);
             let most = MOST_STEPS * if sample_time < longest { sample_time } else { longest };
             if left > most {
                 let turning = turning + TUMBLING * step.rates[0][2].abs();
-                return Err(self.too_long(size, most, turning, scene.contact));
+                return Err(self.too_long(size, most, turning, context.contact));
             }
             // A sample at the end belongs to the step that begins there.
             let piece = if until_sample < left - SAME_INSTANT { until_sample } else { left };
             let length = if piece > longest { piece / (piece / longest).ceil() } else { piece };
             let mut covered = length;
-            self.internal_step(step, length, &scene, (&mut flow, node));
+            self.internal_step(step, length, &context, (&mut flow, node));
             // Right after switching, rounding must not switch back for ever.
-            let within = if stuck { None } else { self.switches_within(step, (&flow, node), &scene) };
+            let within = if stuck { None } else { self.switches_within(step, (&flow, node), &context) };
             if let Some(bracket) = within {
-                covered = self.switching_instant(step, bracket, &scene);
-                self.internal_step(step, covered, &scene, (&mut flow, node));
-                scene.contact = !scene.contact;
+                covered = self.switching_instant(step, bracket, &context);
+                self.internal_step(step, covered, &context, (&mut flow, node));
+                context.contact = !context.contact;
             }
             stuck = covered == 0.0;
             account.made(self, node, loads);
@@ -100,23 +100,23 @@ impl<const N: usize> Dynamics<N> {
             if length == left && within.is_none() {
                 break;
             }
-            scene.elapsed += covered;
-            scene.motion = motion.after(scene.elapsed);
+            context.elapsed += covered;
+            context.motion = motion.after(context.elapsed);
             until_sample -= covered;
-            if until_sample <= 0.0 && scene.elapsed < size {
+            if until_sample <= 0.0 && context.elapsed < size {
                 self.settle(state, &flow, node);
-                until_sample = self.sample(state, loads.present(scene.elapsed, &mut room), t + scene.elapsed);
-                scene.sampled = state.sampled;
+                until_sample = self.sample(state, loads.present(context.elapsed, &mut room), t + context.elapsed);
+                context.sampled = state.sampled;
                 (flow[6], flow[7]) = (state.integrals.x, state.integrals.y);
             }
         }
-        state.contact = scene.contact;
+        state.contact = context.contact;
         state.position = start + motion.way(size);
         if refreshed(t) != refreshed(t + size) {
             node.take(&self.vehicle, &state.position, state.held, &motion.rate_after(size));
-            [flow[8], flow[9]] = Turn::by(flow[2]).cos_sin();
+            [flow[8], flow[9]] = Rotation::by(flow[2]).cos_sin();
         }
-        *turn = self.arm_turn(&flow);
+        *rotation = self.arm_rotation(&flow);
         self.settle(state, &flow, node);
         state.rate = motion.rate_after(size);
         let impulse = self.impulse(state, &momentum, &flow, node, loads, size);
@@ -144,7 +144,7 @@ impl<const N: usize> Dynamics<N> {
     ) -> Impulse {
         let mut impulse = Impulse { thrust: Vec2::zeros(), torque: flow[10], support: flow[11] };
         if self.on_carriage() {
-            let h = node.matrix.of_base(self.base_velocity(flow, Turn::NONE, node)) + node.arm;
+            let h = node.matrix.of_base(self.base_velocity(flow, Rotation::NONE, node)) + node.arm;
             impulse.thrust = vec2(0.0, h.linear.y - flow[4]);
             impulse.torque = h.angular - flow[5];
             (state.momentum.y, state.momentum.z) = (h.linear.y, h.angular);
@@ -160,11 +160,11 @@ impl<const N: usize> Dynamics<N> {
 
     /// Writes pose, momentum, integrals and velocities into `state`.
     pub(super) fn settle(&self, state: &mut State<N>, flow: &Flow, node: &Node<N>) {
-        let turn = self.arm_turn(flow);
+        let rotation = self.arm_rotation(flow);
         state.pose = Vector3::new(flow[0], flow[1], flow[2]);
         state.momentum = Vector3::new(flow[3], flow[4], flow[5]);
         state.integrals = vec2(flow[6], flow[7]);
-        state.velocity = in_inertial_frame(turn, self.base_velocity(flow, turn, node));
+        state.velocity = in_inertial_frame(rotation, self.base_velocity(flow, rotation, node));
         state.rate = node.rate;
     }
 
@@ -213,7 +213,7 @@ impl<const N: usize> Dynamics<N> {
     fn longest_internal_step(&self, step: &Internal<N>, turning: f64, contact: bool) -> f64 {
         let turning = turning + TUMBLING * step.rates[0][2].abs();
         let fastest = if turning > self.control_rate { turning } else { self.control_rate };
-        let longest = LONGEST.min(RESOLUTION / fastest);
+        let longest = LONGEST_INTERNAL_STEP.min(RESOLUTION / fastest);
         if contact { self.longest_on_support(step, longest) } else { longest }
     }
 
@@ -221,13 +221,13 @@ impl<const N: usize> Dynamics<N> {
     #[inline(never)]
     fn longest_on_support(&self, step: &Internal<N>, longest: f64) -> f64 {
         let (vehicle, Internal { nodes: [node, _], from: flow, rates: [k_1, ..], .. }) = (&self.vehicle, step);
-        let lightness = vehicle.masses(true).lightness;
+        let inverse_mass = vehicle.masses(true).inverse_mass;
         // The support feels the mass of the system and, at a lever, its inertia.
         let lever = node.posture.payload.x;
-        let mobility = lightness + lever * lever / vehicle.uav_inertia;
+        let mobility = inverse_mass + lever * lever / vehicle.uav_inertia;
         let swinging = (self.support.stiffness * mobility).sqrt();
-        let gap_rate = self.gap_rate(self.arm_turn(flow), node, &k_1.fixed_rows::<3>(0).into());
-        let speed = gap_rate.abs() + k_1[4].abs() * lightness / swinging;
+        let gap_rate = self.gap_rate(self.arm_rotation(flow), node, &k_1.fixed_rows::<3>(0).into());
+        let speed = gap_rate.abs() + k_1[4].abs() * inverse_mass / swinging;
         // Mostly the step is short enough: that is seen without the roots below, which take a tenth of a step.
         let resolved = longest * swinging;
         let square = resolved * resolved;

@@ -17,7 +17,7 @@
 //! the difference of rates written as a change of angular momentum.
 
 use crate::mechanics::momentum::{MomentumMatrix, Twist};
-use crate::mechanics::planar::{Turn, Vec2, cross, vec2};
+use crate::mechanics::planar::{Rotation, Vec2, cross, vec2};
 use crate::parameters::BaseModel;
 
 impl BaseModel {
@@ -61,8 +61,8 @@ impl BaseModel {
     }
 
     /// The turn of the arm's frame at the angle `roll` of the UAV \[rad\].
-    pub(super) fn turn(self, roll: f64) -> Turn {
-        if self.turns_arm() { Turn::by(roll) } else { Turn::NONE }
+    pub(super) fn rotation(self, roll: f64) -> Rotation {
+        if self.turns_arm() { Rotation::by(roll) } else { Rotation::NONE }
     }
 
     /// Whether the thrust is as large as all vertical loads, whatever the altitude control says (2.16).

@@ -4,7 +4,7 @@
 //! contact switches, so a step is cut there, at an instant found by iterating on the step's length.
 
 use super::advance::RESOLUTION;
-use super::law::{Flow, Node, Scene};
+use super::law::{Flow, Node, StepContext};
 use super::runge_kutta::Internal;
 use super::{Dynamics, in_inertial_frame};
 
@@ -20,13 +20,13 @@ impl<const N: usize> Dynamics<N> {
         if !held || self.support.stiffness == 0.0 {
             return false;
         }
-        let turn = self.arm_turn(flow);
-        let gap = self.gap(flow, turn, node);
+        let rotation = self.arm_rotation(flow);
+        let gap = self.gap(flow, rotation, node);
         if gap.abs() > NO_GAP {
             return gap < 0.0;
         }
-        let velocity = in_inertial_frame(turn, self.base_velocity(flow, turn, node));
-        self.gap_rate(turn, node, &velocity) < 0.0
+        let velocity = in_inertial_frame(rotation, self.base_velocity(flow, rotation, node));
+        self.gap_rate(rotation, node, &velocity) < 0.0
     }
 
     /// Length of an internal step within which contact switches, or `None` if it lasts, or stays away, all through
@@ -36,22 +36,22 @@ impl<const N: usize> Dynamics<N> {
         &self,
         whole: &Internal<N>,
         (to, end): (&Flow, &Node<N>),
-        scene: &Scene<'_, N>,
+        context: &StepContext<'_, N>,
     ) -> Option<f64> {
-        if !scene.held || self.support.stiffness == 0.0 {
+        if !context.held || self.support.stiffness == 0.0 {
             return None;
         }
-        let margin = self.margin(to, end, scene);
+        let margin = self.margin(to, end, context);
         if margin < -NO_GAP {
             return Some(whole.size);
         }
         // Both ends lie on the same side; in between there may be a way across and back, but not a long one.
-        let start = self.margin(&whole.from, &whole.nodes[0], scene);
+        let start = self.margin(&whole.from, &whole.nodes[0], context);
         let dip = self.deepest_dip(&whole.rates, whole.size);
         if start > dip && margin > dip {
             return None;
         }
-        self.dips_within(whole, (to, end), [start, margin], scene)
+        self.dips_within(whole, (to, end), [start, margin], context)
     }
 
     /// Length of an internal step at whose end the `whole` one has crossed the support, to come back: its margins at both
@@ -62,14 +62,14 @@ impl<const N: usize> Dynamics<N> {
         whole: &Internal<N>,
         (to, end): (&Flow, &Node<N>),
         [start, margin]: [f64; 2],
-        scene: &Scene<'_, N>,
+        context: &StepContext<'_, N>,
     ) -> Option<f64> {
         let Internal { nodes: [begin, _], from, rates: [k_1, .., k_4], size, .. } = whole;
         let rate = |flow: &Flow, k: &Flow, node: &Node<N>| {
-            scene.side() * self.gap_rate(self.arm_turn(flow), node, &k.fixed_rows::<3>(0).into())
+            context.side() * self.gap_rate(self.arm_rotation(flow), node, &k.fixed_rows::<3>(0).into())
         };
         let dip = lowest([start.max(0.0), margin], [rate(from, k_1, begin), rate(to, k_4, end)], *size)?;
-        (self.margin_after(dip, whole, scene) < -NO_GAP).then_some(dip)
+        (self.margin_after(dip, whole, context) < -NO_GAP).then_some(dip)
     }
 
     /// More than the margin can dip below its smaller end in an internal step of length `size` with these `rates` of the
@@ -85,24 +85,24 @@ impl<const N: usize> Dynamics<N> {
 
     /// The instant within the internal `step`, or one of length `size` with the same beginning, at which contact switches.
     #[cold]
-    pub(super) fn switching_instant(&self, step: &Internal<N>, size: f64, scene: &Scene<'_, N>) -> f64 {
-        let begin = self.margin(&step.from, &step.nodes[0], scene);
-        switching_instant(begin, size, &|length| self.margin_after(length, step, scene))
+    pub(super) fn switching_instant(&self, step: &Internal<N>, size: f64, context: &StepContext<'_, N>) -> f64 {
+        let begin = self.margin(&step.from, &step.nodes[0], context);
+        switching_instant(begin, size, &|length| self.margin_after(length, step, context))
     }
 
     /// [`Dynamics::margin`] after an internal step of this `length` that begins like `step`.
     #[cold]
     #[inline(never)]
-    fn margin_after(&self, length: f64, step: &Internal<N>, scene: &Scene<'_, N>) -> f64 {
+    fn margin_after(&self, length: f64, step: &Internal<N>, context: &StepContext<'_, N>) -> f64 {
         let mut step = *step;
         let (mut to, mut end) = (Flow::zeros(), step.nodes[0]);
-        self.internal_step(&mut step, length, scene, (&mut to, &mut end));
-        self.margin(&to, &end, scene)
+        self.internal_step(&mut step, length, context, (&mut to, &mut end));
+        self.margin(&to, &end, context)
     }
 
     /// Distance \[m\] from switching: positive while the present state of contact lasts.
-    pub(super) fn margin(&self, flow: &Flow, node: &Node<N>, scene: &Scene<'_, N>) -> f64 {
-        scene.side() * self.gap(flow, self.arm_turn(flow), node)
+    pub(super) fn margin(&self, flow: &Flow, node: &Node<N>, context: &StepContext<'_, N>) -> f64 {
+        context.side() * self.gap(flow, self.arm_rotation(flow), node)
     }
 }
 
@@ -192,17 +192,17 @@ mod tests {
 
     fn check(dynamics: &Dynamics<3>, start: &Situation<3>, load: &Load) {
         let loads = Loads { begin: load, slope: None };
-        let scene = Scene { loads: &loads, ..Dynamics::scene(&start.state) };
+        let context = StepContext { loads: &loads, ..Dynamics::context(&start.state) };
         let (node, from) = (&start.node, &start.flow(BaseModel::Full));
         let mut step = Internal::none(node);
         step.from = *from;
-        dynamics.law(&mut step.rates[0], from, node, load, &scene);
+        dynamics.law(&mut step.rates[0], from, node, load, &context);
         let turning = dynamics.turning(&node.rate) + TUMBLING * step.rates[0][2].abs();
         let size = RESOLUTION / turning.max(10.0);
         let (mut to, mut end) = (*from, *node);
-        dynamics.internal_step(&mut step, size, &scene, (&mut to, &mut end));
+        dynamics.internal_step(&mut step, size, &context, (&mut to, &mut end));
         let slope = |flow: &Flow, k: &Flow, node: &Node<3>| {
-            dynamics.gap_rate(dynamics.arm_turn(flow), node, &k.fixed_rows::<3>(0).into()).abs() * size
+            dynamics.gap_rate(dynamics.arm_rotation(flow), node, &k.fixed_rows::<3>(0).into()).abs() * size
         };
         let dip = 4.0 / 27.0 * (slope(from, &step.rates[0], node) + slope(&to, &step.rates[3], &end));
         let deepest = dynamics.deepest_dip(&step.rates, size);

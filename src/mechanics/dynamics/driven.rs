@@ -185,9 +185,9 @@ impl<const N: usize> Dynamics<N> {
     ) -> SVector<f64, N> {
         let Situation { state, node, .. } = situation;
         let (vehicle, posture, roll_rate) = (&self.vehicle, &node.posture, state.velocity.z);
-        let (flow, scene) = (situation.flow(self.base), Self::scene(&situation.state));
+        let (flow, context) = (situation.flow(self.base), Self::context(&situation.state));
         let mut rate = Flow::zeros();
-        self.law_at(&mut rate, &flow, node, situation.base(), load, &scene);
+        self.law_at(&mut rate, &flow, node, situation.base(), load, &context);
         let base = self.base_acceleration(situation, self.loads_at_end(situation, &rate), imposed);
 
         let drift = outboard_drift(vehicle, posture, state.held, situation.base(), &node.rate);

@@ -8,7 +8,7 @@ use super::law::Flow;
 use super::{Dynamics, Loads, Situation, State, in_inertial_frame};
 use crate::mechanics::kinematics::Displacement;
 use crate::mechanics::momentum::Twist;
-use crate::mechanics::planar::{Turn, vec2};
+use crate::mechanics::planar::{Rotation, vec2};
 
 impl<const N: usize> Dynamics<N> {
     /// Makes `state` the state `here`, but with the momentum and the integrals after a step of length `size` from
@@ -22,9 +22,9 @@ impl<const N: usize> Dynamics<N> {
         self.sample(state, load, t);
         let flow = here.flow(self.base);
         state.contact = self.touches(&flow, node, state.held);
-        let scene = Self::scene(state);
+        let context = Self::context(state);
         let mut rate = Flow::zeros();
-        self.written(&mut rate, &flow, node, here.base(), load, &scene);
+        self.written(&mut rate, &flow, node, here.base(), load, &context);
         state.momentum += Vector3::new(rate[3], rate[4], rate[5]) * size;
         state.integrals += vec2(rate[6], rate[7]) * size;
         self.carried_load(node, &self.carrier(&flow, &rate), load) * size
@@ -42,8 +42,8 @@ impl<const N: usize> Dynamics<N> {
     ) {
         let (state, matrix) = (&mut end.state, &here.node.matrix);
         let arm = matrix.sum_of_rates(rate);
-        let base = self.base_motion(&here.node, state.momentum_in(here.turn), arm);
-        state.velocity = in_inertial_frame(here.turn, base);
+        let base = self.base_motion(&here.node, state.momentum_in(here.rotation), arm);
+        state.velocity = in_inertial_frame(here.rotation, base);
         state.rate = *rate;
         state.pose += state.velocity * size;
         state.position += way;
@@ -56,27 +56,27 @@ impl<const N: usize> Dynamics<N> {
             return;
         }
         // Small turns instead of sines spare a third of the step.
-        let turned = Turn::by_small(state.velocity.z * size);
-        end.turn = if self.base.turns_arm() { here.turn.then(turned) } else { Turn::NONE };
+        let turned = Rotation::from_small_angle(state.velocity.z * size);
+        end.rotation = if self.base.turns_arm() { here.rotation.then(turned) } else { Rotation::NONE };
         end.node.follow(&self.vehicle, &here.node, &Displacement::small(&self.vehicle, way), state.held, rate);
     }
 
     /// Displaces the coordinates in `situation` by a `way` so short that all is linear in it, after which the rates are
     /// `rate`. Momentum stays, and the base gives way; the sums over the arm stay, for the next instant makes them anew.
     pub fn displace(&self, situation: &mut Situation<N>, way: &SVector<f64, N>, rate: &SVector<f64, N>) {
-        let Situation { state, turn, node } = situation;
+        let Situation { state, rotation, node } = situation;
         let base = self.base_motion(node, Twist::ZERO, node.matrix.of_rates(way));
-        state.pose += in_inertial_frame(*turn, base);
+        state.pose += in_inertial_frame(*rotation, base);
         state.position += way;
         state.rate = *rate;
         let posture = node.posture;
         node.posture.follow(&self.vehicle, &posture, &Displacement::tiny(&self.vehicle, way));
         node.move_at(rate);
         if self.base.turns_arm() {
-            *turn = turn.then(Turn::by_tiny(base.angular));
+            *rotation = rotation.then(Rotation::by_tiny(base.angular));
         }
-        let base = self.base_motion(node, state.momentum_in(*turn), node.arm);
-        state.velocity = in_inertial_frame(*turn, base);
+        let base = self.base_motion(node, state.momentum_in(*rotation), node.arm);
+        state.velocity = in_inertial_frame(*rotation, base);
         if self.on_carriage() {
             let h = node.matrix.of_base(base) + node.arm;
             (state.momentum.y, state.momentum.z) = (h.linear.y, h.angular);

@@ -2,7 +2,7 @@
 
 use nalgebra::{SVector, Vector3};
 
-use super::law::{Flow, Scene};
+use super::law::{Flow, StepContext};
 use super::{Dynamics, Load, Loads, Motion, Situation, State, in_inertial_frame};
 use crate::mechanics::momentum::{Twist, inertial_load};
 use crate::mechanics::planar::{Vec2, vec2};
@@ -19,8 +19,8 @@ pub struct Instant {
 }
 
 impl<const N: usize> Dynamics<N> {
-    pub(super) fn scene(state: &State<N>) -> Scene<'static, N> {
-        Scene {
+    pub(super) fn context(state: &State<N>) -> StepContext<'static, N> {
+        StepContext {
             loads: &Loads::CALM,
             elapsed: 0.0,
             held: state.held,
@@ -36,20 +36,20 @@ impl<const N: usize> Dynamics<N> {
     pub fn at_end(&self, situation: &Situation<N>, slope: &SVector<f64, N>, load: &Load) -> Instant {
         let state = &situation.state;
         let flow = situation.flow(self.base);
-        let scene = Self::scene(state);
+        let context = Self::context(state);
         let mut rate = Flow::zeros();
-        self.law_at(&mut rate, &flow, &situation.node, situation.base(), load, &scene);
-        let (control, _) = self.control(&flow, &state.velocity, load, &scene);
+        self.law_at(&mut rate, &flow, &situation.node, situation.base(), load, &context);
+        let (control, _) = self.control(&flow, &state.velocity, load, &context);
         let base = self.base_acceleration(situation, self.loads_at_end(situation, &rate), slope);
-        let acceleration = in_inertial_frame(situation.turn, base);
+        let acceleration = in_inertial_frame(situation.rotation, base);
         Instant { acceleration, control: vec2(control.x, rate[10]), support: rate[11] }
     }
 
     /// Force on the whole system and moment about the UAV's centre of mass in `situation`, where `rate` is the rate of
     /// the flow; axes of the arm's frame.
-    pub(super) fn loads_at_end(&self, Situation { state, turn, node }: &Situation<N>, rate: &Flow) -> Twist {
+    pub(super) fn loads_at_end(&self, Situation { state, rotation, node }: &Situation<N>, rate: &Flow) -> Twist {
         let transport = self.base.transport(state.velocity.xy(), state.momentum.xy(), node.arm);
-        Twist { linear: turn.undo(vec2(rate[3], rate[4])), angular: rate[5] + transport }
+        Twist { linear: rotation.undo(vec2(rate[3], rate[4])), angular: rate[5] + transport }
     }
 
     /// Acceleration of the base under these `loads`, while the coordinates accelerate by `slope`; axes of the arm's frame.

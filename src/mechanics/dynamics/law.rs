@@ -8,7 +8,7 @@ use super::{Dynamics, Load, Loads, Motion, Situation, State, in_inertial_frame};
 use crate::autopilot::AutopilotMode;
 use crate::mechanics::kinematics::{Displacement, Posture};
 use crate::mechanics::momentum::{MomentumMatrix, Twist};
-use crate::mechanics::planar::{Turn, Vec2, cross, perp, vec2};
+use crate::mechanics::planar::{Rotation, Vec2, cross, perp, vec2};
 use crate::mechanics::vehicle::Vehicle;
 use crate::memory;
 use crate::parameters::BaseModel;
@@ -27,14 +27,14 @@ pub(super) const SEEN: Range<usize> = 1..10;
 
 /// The turn of the UAV.
 #[inline]
-fn uav_turn(y: &Flow) -> Turn {
-    Turn::with(y[8], y[9])
+fn uav_rotation(y: &Flow) -> Rotation {
+    Rotation::with(y[8], y[9])
 }
 
 /// Makes the turn in `flow` agree with the roll, given that it did in the flow `before`.
 #[inline]
 pub(super) fn turned(flow: &mut Flow, before: &Flow) {
-    [flow[8], flow[9]] = uav_turn(before).then(Turn::by_small(flow[2] - before[2])).cos_sin();
+    [flow[8], flow[9]] = uav_rotation(before).then(Rotation::from_small_angle(flow[2] - before[2])).cos_sin();
 }
 
 /// The arm at one instant, in the UAV frame.
@@ -107,7 +107,7 @@ impl<const N: usize> Node<N> {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Carrier {
     /// The turn of the arm's frame.
-    pub turn: Turn,
+    pub rotation: Rotation,
     /// Its motion, in the axes of that frame.
     pub motion: Twist,
     /// Force of the support on the payload, upwards \[N\].
@@ -116,7 +116,7 @@ pub(super) struct Carrier {
 
 /// What stays the same during an internal step.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Scene<'a, const N: usize> {
+pub(super) struct StepContext<'a, const N: usize> {
     /// Loads from outside.
     pub loads: &'a Loads<'a>,
     /// When the internal step begins, from the beginning of these loads \[s\].
@@ -131,7 +131,7 @@ pub(super) struct Scene<'a, const N: usize> {
     pub motion: Motion<N>,
 }
 
-impl<const N: usize> Scene<'_, N> {
+impl<const N: usize> StepContext<'_, N> {
     /// On which side of the unloaded support the payload stays while contact does not switch: +1 above.
     pub fn side(&self) -> f64 {
         if self.contact { -1.0 } else { 1.0 }
@@ -141,8 +141,8 @@ impl<const N: usize> Scene<'_, N> {
 impl<const N: usize> Dynamics<N> {
     /// The turn of the arm's frame.
     #[inline]
-    pub(super) fn arm_turn(&self, y: &Flow) -> Turn {
-        if self.base.turns_arm() { uav_turn(y) } else { Turn::NONE }
+    pub(super) fn arm_rotation(&self, y: &Flow) -> Rotation {
+        if self.base.turns_arm() { uav_rotation(y) } else { Rotation::NONE }
     }
 
     /// Motion of the base with the momentum `h`, of which `arm` is the arm's; axes of the UAV frame.
@@ -154,8 +154,8 @@ impl<const N: usize> Dynamics<N> {
 
     /// Motion of the base in the axes of the UAV frame: what momentum the arm leaves, divided by inertia.
     #[inline]
-    pub(super) fn base_velocity(&self, y: &Flow, turn: Turn, node: &Node<N>) -> Twist {
-        let h = Twist { linear: turn.undo(vec2(y[3], y[4])), angular: y[5] };
+    pub(super) fn base_velocity(&self, y: &Flow, rotation: Rotation, node: &Node<N>) -> Twist {
+        let h = Twist { linear: rotation.undo(vec2(y[3], y[4])), angular: y[5] };
         self.base_motion(node, h, node.arm)
     }
 
@@ -175,14 +175,20 @@ impl<const N: usize> Dynamics<N> {
     /// Thrust \[N\] and torque \[N m\], without what holds an ideal base, and the errors that a continuous autopilot
     /// integrates.
     #[inline]
-    pub(super) fn control(&self, y: &Flow, velocity: &Vector3<f64>, load: &Load, scene: &Scene<'_, N>) -> (Vec2, Vec2) {
+    pub(super) fn control(
+        &self,
+        y: &Flow,
+        velocity: &Vector3<f64>,
+        load: &Load,
+        context: &StepContext<'_, N>,
+    ) -> (Vec2, Vec2) {
         if self.continuous {
             let error = load.error(y[1], y[2]);
             return (self.hover_law(error, velocity, vec2(y[6], y[7]), load), error);
         }
         let control = match self.autopilot.mode {
             _ if self.on_carriage() => Vec2::zeros(),
-            AutopilotMode::Pid => scene.sampled,
+            AutopilotMode::Pid => context.sampled,
             AutopilotMode::External => vec2(load.thrust, load.torque),
             AutopilotMode::Ideal => Vec2::zeros(),
         };
@@ -191,44 +197,60 @@ impl<const N: usize> Dynamics<N> {
 
     /// Rates of the flow, written to `k`.
     #[inline(never)]
-    pub(super) fn law(&self, k: &mut Flow, y: &Flow, node: &Node<N>, load: &Load, scene: &Scene<'_, N>) {
+    pub(super) fn law(&self, k: &mut Flow, y: &Flow, node: &Node<N>, load: &Load, context: &StepContext<'_, N>) {
         // The compiler writes it twice: with a model that it knows, it takes a fifth less instructions.
         if self.base == BaseModel::Full {
-            self.written(k, y, node, self.base_velocity(y, uav_turn(y), node), load, scene);
+            self.written(k, y, node, self.base_velocity(y, uav_rotation(y), node), load, context);
         } else {
-            self.reduced_law(k, y, node, load, scene);
+            self.reduced_law(k, y, node, load, context);
         }
     }
 
     /// The same for a base that is not [`BaseModel::Full`]. Out of the way: without any other call, the full model
     /// needs no registers saved.
     #[inline(never)]
-    fn reduced_law(&self, k: &mut Flow, y: &Flow, node: &Node<N>, load: &Load, scene: &Scene<'_, N>) {
+    fn reduced_law(&self, k: &mut Flow, y: &Flow, node: &Node<N>, load: &Load, context: &StepContext<'_, N>) {
         let h = Twist { linear: vec2(y[3], y[4]), angular: y[5] };
         let v = self.base.reduced_velocity(node.matrix.mass, self.vehicle.uav_inertia, h, h - node.arm);
-        self.law_at(k, y, node, v, load, scene);
+        self.law_at(k, y, node, v, load, context);
     }
 
     /// [`Dynamics::law`] for a base that moves with `v`, axes of the UAV frame.
     #[inline(never)]
-    pub(super) fn law_at(&self, k: &mut Flow, y: &Flow, node: &Node<N>, v: Twist, load: &Load, scene: &Scene<'_, N>) {
-        self.written(k, y, node, v, load, scene);
+    pub(super) fn law_at(
+        &self,
+        k: &mut Flow,
+        y: &Flow,
+        node: &Node<N>,
+        v: Twist,
+        load: &Load,
+        context: &StepContext<'_, N>,
+    ) {
+        self.written(k, y, node, v, load, context);
     }
 
     #[inline(always)]
-    pub(super) fn written(&self, k: &mut Flow, y: &Flow, node: &Node<N>, v: Twist, load: &Load, scene: &Scene<'_, N>) {
-        let turn = self.arm_turn(y);
-        let velocity = in_inertial_frame(turn, v);
-        let (mut control, error) = self.control(y, &velocity, load, scene);
-        let support = self.support_force(y, turn, node, scene);
+    pub(super) fn written(
+        &self,
+        k: &mut Flow,
+        y: &Flow,
+        node: &Node<N>,
+        v: Twist,
+        load: &Load,
+        context: &StepContext<'_, N>,
+    ) {
+        let rotation = self.arm_rotation(y);
+        let velocity = in_inertial_frame(rotation, v);
+        let (mut control, error) = self.control(y, &velocity, load, context);
+        let support = self.support_force(y, rotation, node, context);
 
         let weight = vec2(0.0, -node.matrix.mass * self.vehicle.gravity);
         let others = load.base_force + load.tip_force + vec2(0.0, support) + weight;
         if self.base.thrust_carries_all() {
             control.x = -others.y;
         }
-        let force = uav_turn(y).up() * control.x + others;
-        let moment = control.y + load.base_torque + self.carried_moment(turn, node, load, support);
+        let force = uav_rotation(y).up() * control.x + others;
+        let moment = control.y + load.base_torque + self.carried_moment(rotation, node, load, support);
         let angular = moment - self.base.transport(velocity.xy(), vec2(y[3], y[4]), node.arm);
 
         let turning = vec2(-y[9], y[8]) * velocity.z;
@@ -241,45 +263,51 @@ impl<const N: usize> Dynamics<N> {
     /// The UAV with the flow `y` and its rates `k`, as [`Dynamics::law`] gives them.
     #[inline]
     pub(super) fn carrier(&self, y: &Flow, k: &Flow) -> Carrier {
-        let turn = self.arm_turn(y);
-        Carrier { turn, motion: Twist { linear: turn.undo(vec2(k[0], k[1])), angular: k[2] }, support: k[11] }
+        let rotation = self.arm_rotation(y);
+        Carrier { rotation, motion: Twist { linear: rotation.undo(vec2(k[0], k[1])), angular: k[2] }, support: k[11] }
     }
 
     /// Moment of weight and outer loads on what the UAV carries, about the UAV's centre of mass \[N m\].
     #[inline]
-    pub(super) fn carried_moment(&self, turn: Turn, node: &Node<N>, load: &Load, support: f64) -> f64 {
-        let mut moment = -turn.apply(node.matrix.first).x * self.vehicle.gravity;
+    pub(super) fn carried_moment(&self, rotation: Rotation, node: &Node<N>, load: &Load, support: f64) -> f64 {
+        let mut moment = -rotation.apply(node.matrix.first).x * self.vehicle.gravity;
         if load.pushes_arm() || support != 0.0 {
             let posture = &node.posture;
             moment += load.tip_torque
-                + cross(turn.apply(posture.end_effector), load.tip_force)
-                + turn.apply(posture.payload).x * support;
+                + cross(rotation.apply(posture.end_effector), load.tip_force)
+                + rotation.apply(posture.payload).x * support;
         }
         moment
     }
 
     /// Force of the support on the payload, upwards \[N\].
     #[inline]
-    pub(super) fn support_force(&self, y: &Flow, turn: Turn, node: &Node<N>, scene: &Scene<'_, N>) -> f64 {
-        if scene.contact { -self.support.stiffness * self.gap(y, turn, node) } else { 0.0 }
+    pub(super) fn support_force(
+        &self,
+        y: &Flow,
+        rotation: Rotation,
+        node: &Node<N>,
+        context: &StepContext<'_, N>,
+    ) -> f64 {
+        if context.contact { -self.support.stiffness * self.gap(y, rotation, node) } else { 0.0 }
     }
 
     /// Height of the payload above the unloaded support \[m\].
-    pub(super) fn gap(&self, y: &Flow, turn: Turn, node: &Node<N>) -> f64 {
-        y[1] + turn.apply(node.posture.payload).y - self.support.height
+    pub(super) fn gap(&self, y: &Flow, rotation: Rotation, node: &Node<N>) -> f64 {
+        y[1] + rotation.apply(node.posture.payload).y - self.support.height
     }
 
     /// How fast the payload leaves the support while the UAV moves with `velocity`, inertial frame \[m/s\].
-    pub(super) fn gap_rate(&self, turn: Turn, node: &Node<N>, velocity: &Vector3<f64>) -> f64 {
-        let v = Twist { linear: turn.undo(velocity.xy()), angular: velocity.z };
-        self.velocity_at(node, turn, node.posture.payload, v).y
+    pub(super) fn gap_rate(&self, rotation: Rotation, node: &Node<N>, velocity: &Vector3<f64>) -> f64 {
+        let v = Twist { linear: rotation.undo(velocity.xy()), angular: velocity.z };
+        self.velocity_at(node, rotation, node.posture.payload, v).y
     }
 
     /// Velocity of a point of the last link at `place` (UAV frame) \[m/s\], inertial frame, while the base moves with `v`,
-    /// axes of the arm's frame, which is turned by `turn`.
+    /// axes of the arm's frame, which is turned by `rotation`.
     #[must_use]
-    pub fn velocity_at(&self, node: &Node<N>, turn: Turn, place: Vec2, v: Twist) -> Vec2 {
-        turn.apply(node.velocity_at(&self.vehicle, place, self.base.carried(v)))
+    pub fn velocity_at(&self, node: &Node<N>, rotation: Rotation, place: Vec2, v: Twist) -> Vec2 {
+        rotation.apply(node.velocity_at(&self.vehicle, place, self.base.carried(v)))
     }
 }
 
@@ -287,7 +315,7 @@ impl<const N: usize> Situation<N> {
     /// The part of the state that the laws of motion integrate, no impulses so far.
     pub(super) fn flow(&self, base: BaseModel) -> Flow {
         let State { pose, momentum: h, integrals, .. } = &self.state;
-        let [cos, sin] = if base.turns_arm() { self.turn } else { Turn::by(pose.z) }.cos_sin();
+        let [cos, sin] = if base.turns_arm() { self.rotation } else { Rotation::by(pose.z) }.cos_sin();
         Flow::from([pose.x, pose.y, pose.z, h.x, h.y, h.z, integrals.x, integrals.y, cos, sin, 0.0, 0.0])
     }
 }

@@ -16,16 +16,18 @@
 use super::law::Carrier;
 use super::{Dynamics, Load, Node};
 use crate::mechanics::momentum::Twist;
-use crate::mechanics::planar::{Turn, cross, perp, vec2};
+use crate::mechanics::planar::{Rotation, cross, perp, vec2};
 use crate::parameters::{BaseModel, MomentModel};
 
 impl<const N: usize> Dynamics<N> {
-    /// What the arm feels of the base's motion `v`; axes of the UAV frame, which is turned by `turn`.
+    /// What the arm feels of the base's motion `v`; axes of the UAV frame, which is turned by `rotation`.
     #[inline]
-    fn felt(&self, v: Twist, turn: Turn) -> Twist {
+    fn felt(&self, v: Twist, rotation: Rotation) -> Twist {
         match self.moment_model {
             MomentModel::FixedBase => Twist::ZERO,
-            MomentModel::SlidingBase => Twist { linear: turn.undo(vec2(turn.apply(v.linear).x, 0.0)), angular: 0.0 },
+            MomentModel::SlidingBase => {
+                Twist { linear: rotation.undo(vec2(rotation.apply(v.linear).x, 0.0)), angular: 0.0 }
+            }
             MomentModel::FreeBase => self.base.carried(v),
         }
     }
@@ -33,11 +35,11 @@ impl<const N: usize> Dynamics<N> {
     /// The right-hand side of the law above without the moment on the UAV \[N m\].
     #[inline]
     pub(super) fn carried_load(&self, node: &Node<N>, carrier: &Carrier, load: &Load) -> f64 {
-        let Carrier { turn, motion: v, support } = *carrier;
-        let v = self.felt(v, turn);
+        let Carrier { rotation, motion: v, support } = *carrier;
+        let v = self.felt(v, rotation);
         // What moves along with the UAV has a momentum along v_0.
         let across = node.arm.linear + perp(node.matrix.first) * v.angular;
-        self.carried_moment(turn, node, load, support) - cross(v.linear, across)
+        self.carried_moment(rotation, node, load, support) - cross(v.linear, across)
     }
 
     /// Angular momentum of all that the UAV carries, from the base's motion `v`, of which it feels what the model says,
@@ -45,12 +47,12 @@ impl<const N: usize> Dynamics<N> {
     /// the whole system; linear in all three \[N m s\].
     #[inline]
     #[must_use]
-    pub fn carried_angular(&self, node: &Node<N>, turn: Turn, v: Twist, arm: Twist, system: f64) -> f64 {
+    pub fn carried_angular(&self, node: &Node<N>, rotation: Rotation, v: Twist, arm: Twist, system: f64) -> f64 {
         let uav = |v: Twist| self.vehicle.uav_inertia * v.angular;
         if self.neglects_nothing() {
             return system - uav(v);
         }
-        let felt = self.felt(v, turn);
+        let felt = self.felt(v, rotation);
         node.matrix.of_base(felt).angular - uav(felt) + arm.angular
     }
 

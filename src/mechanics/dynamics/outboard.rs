@@ -13,17 +13,17 @@ impl<const N: usize> Dynamics<N> {
     /// or forces along the slide, of weight, outer loads and its own motion \[N m, N\].
     #[inline]
     pub(super) fn outboard_load(&self, node: &Node<N>, carrier: &Carrier, held: bool, load: &Load) -> SVector<f64, N> {
-        let (vehicle, posture, turn) = (&self.vehicle, &node.posture, carrier.turn);
+        let (vehicle, posture, rotation) = (&self.vehicle, &node.posture, carrier.rotation);
         let mut sum = outboard_drift(vehicle, posture, held, carrier.motion, &node.rate);
 
         let drift = sum[N - 1];
-        let gravity = turn.undo(vec2(0.0, -vehicle.gravity));
+        let gravity = rotation.undo(vec2(0.0, -vehicle.gravity));
         for (i, sum) in sum.iter_mut().enumerate() {
             *sum += cross(node.matrix.outboard_first(i), gravity);
         }
         if load.pushes_arm() || carrier.support != 0.0 {
-            let tip = turn.undo(load.tip_force);
-            let lift = turn.undo(vec2(0.0, carrier.support));
+            let tip = rotation.undo(load.tip_force);
+            let lift = rotation.undo(vec2(0.0, carrier.support));
             let pushed = load.tip_torque + cross(posture.end_effector, tip) + cross(posture.payload, lift);
             for (sum, joint) in sum.iter_mut().zip(&posture.joint) {
                 *sum += pushed - cross(*joint, tip + lift);

@@ -9,7 +9,7 @@ use crate::mechanics::planar::{Vec2, cross, vec2};
 
 /// See [`Dynamics::rates_at_end`]; inertial frame, left limits.
 #[derive(Debug, Clone, Copy)]
-pub struct Rates {
+pub struct EndRates {
     /// Acceleration of the end effector \[m/s2\].
     pub tip_velocity: Vec2,
     /// Rate of the momentum \[N, N, N m\].
@@ -27,19 +27,19 @@ impl<const N: usize> Dynamics<N> {
         situation: &Situation<N>,
         slope: &SVector<f64, N>,
         acceleration: &Vector3<f64>,
-    ) -> Rates {
-        let Situation { state, turn, node } = situation;
-        let base = Twist { linear: turn.undo(acceleration.xy()), angular: acceleration.z };
+    ) -> EndRates {
+        let Situation { state, rotation, node } = situation;
+        let base = Twist { linear: rotation.undo(acceleration.xy()), angular: acceleration.z };
         let posture = &node.posture;
 
         // Masses times accelerations.
         let kept = inertial_load(&self.vehicle, posture, state.held, state.velocity.z, &node.rate, slope);
-        let mut momentum = in_inertial_frame(*turn, kept + node.matrix.of_base(base));
+        let mut momentum = in_inertial_frame(*rotation, kept + node.matrix.of_base(base));
         momentum.z -= cross(state.velocity.xy(), state.momentum.xy());
 
         let tip = tip_acceleration(&self.vehicle, posture, base, state.velocity.z, &node.rate, slope);
-        let leaving = if state.contact { self.gap_rate(*turn, node, &state.velocity) } else { 0.0 };
-        Rates { tip_velocity: turn.apply(tip), momentum, support: -self.support.stiffness * leaving }
+        let leaving = if state.contact { self.gap_rate(*rotation, node, &state.velocity) } else { 0.0 };
+        EndRates { tip_velocity: rotation.apply(tip), momentum, support: -self.support.stiffness * leaving }
     }
 
     /// How fast the autopilot changes thrust \[N/s\] and torque \[N m/s\] at the end of a step of length

@@ -4,7 +4,7 @@
 //! cheap. Methods of order 6 need twice as many instants; at the steps of a millisecond that a
 //! communication with a controller asks for, order 4 already leaves nothing but rounding.
 
-use super::law::{Carrier, Flow, Node, SEEN, Scene, turned};
+use super::law::{Carrier, Flow, Node, SEEN, StepContext, turned};
 use super::{Dynamics, Load, Loads};
 use crate::mechanics::kinematics::Displacement;
 
@@ -33,17 +33,17 @@ impl<const N: usize> Internal<N> {
 }
 
 impl<const N: usize> Dynamics<N> {
-    /// One step of length `size` under the motion of `scene`, from where `step` says that it begins: flow and its rates
+    /// One step of length `size` under the motion of `context`, from where `step` says that it begins: flow and its rates
     /// there, and the arm. Where it ends is written to `to` and `end`, all else to `step`.
     pub(super) fn internal_step(
         &self,
         step: &mut Internal<N>,
         size: f64,
-        scene: &Scene<'_, N>,
+        context: &StepContext<'_, N>,
         (to, end): (&mut Flow, &mut Node<N>),
     ) {
         let half = 0.5 * size;
-        let Scene { motion, held, .. } = scene;
+        let StepContext { motion, held, .. } = context;
         let [begin, middle] = &mut step.nodes;
         let way = |t: f64| Displacement::small(&self.vehicle, &motion.way(t));
         let first_half = way(half);
@@ -55,15 +55,15 @@ impl<const N: usize> Dynamics<N> {
             middle.follow(&self.vehicle, begin, &first_half, *held, &motion.rate_after(half));
             end.follow(&self.vehicle, begin, &way(size), *held, &motion.rate_after(size));
         }
-        (step.elapsed, step.size, step.held) = (scene.elapsed, size, scene.held);
+        (step.elapsed, step.size, step.held) = (context.elapsed, size, context.held);
 
         let mut room = None;
-        let [_, load_2, load_4] = scene.loads.at([scene.elapsed, size], &mut room);
+        let [_, load_2, load_4] = context.loads.at([context.elapsed, size], &mut room);
 
         let (from, [k_1, k_2, k_3, k_4]) = (&step.from, &mut step.rates);
-        self.law(k_2, &after(from, k_1, half), middle, load_2, scene);
-        self.law(k_3, &after(from, k_2, half), middle, load_2, scene);
-        self.law(k_4, &after(from, k_3, size), end, load_4, scene);
+        self.law(k_2, &after(from, k_1, half), middle, load_2, context);
+        self.law(k_3, &after(from, k_2, half), middle, load_2, context);
+        self.law(k_4, &after(from, k_3, size), end, load_4, context);
         let sixth = size / 6.0;
         let sum = |i: usize| from[i] + (k_1[i] + (k_2[i] + k_3[i]) * 2.0 + k_4[i]) * sixth;
         // By twos, which spares a fifth of the instructions: the compiler leaves the loop as it is.
@@ -134,7 +134,7 @@ mod tests {
             let (mut flow, mut node) = (start.flow(BaseModel::Full), start.node);
             node.move_at(&motion.rate);
             let mut step = Internal::none(&node);
-            let scene = Scene {
+            let context = StepContext {
                 loads: &loads,
                 elapsed: 0.0,
                 held: false,
@@ -144,9 +144,9 @@ mod tests {
             };
             for _ in 0..steps {
                 step.nodes[0] = node;
-                dynamics.law(&mut step.rates[0], &flow, &node, loads.begin, &scene);
+                dynamics.law(&mut step.rates[0], &flow, &node, loads.begin, &context);
                 step.from = flow;
-                dynamics.internal_step(&mut step, size, &scene, (&mut flow, &mut node));
+                dynamics.internal_step(&mut step, size, &context, (&mut flow, &mut node));
             }
             flow
         };

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use uam::autopilot::AutopilotMode;
-use uam::mechanics::planar::{Turn, Vec2};
+use uam::mechanics::planar::{Rotation, Vec2};
 use uam::parameters::{Actuation, Balance, Discretization, Resolution};
 use uam::scenarios::{Extent, Scenario};
 use uam::variables::options::Choice;
@@ -244,7 +244,7 @@ fn end_effector(structure: Structure, p: &Parameters) -> Vec2 {
     let mut place = Vec2::new(p.mount.x, p.mount.y);
     for (link, joint) in p.links.iter().zip(&p.joints).take(structure.links) {
         angle += joint.start;
-        place += Turn::by(angle).down() * link.length;
+        place += Rotation::by(angle).down() * link.length;
     }
     place
 }

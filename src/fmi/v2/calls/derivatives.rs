@@ -4,7 +4,7 @@ use super::{Handle, arguments, c};
 use crate::fmi::model::Model;
 use crate::fmi::v2::c_types::{Status, ValueReference};
 use crate::fmi::v2::component;
-use crate::fmi::v2::state::Call;
+use crate::fmi::v2::phase::Call;
 
 /// `fmi2SetRealInputDerivatives`.
 pub unsafe fn set_real_input_derivatives<M: Model>(

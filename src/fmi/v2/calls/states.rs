@@ -6,7 +6,7 @@ use crate::fmi::v2::c_types::Status;
 use crate::fmi::v2::component;
 use crate::fmi::v2::error::Error;
 use crate::fmi::v2::instance::Saved;
-use crate::fmi::v2::state::Call;
+use crate::fmi::v2::phase::Call;
 use crate::fmi::v2::states;
 
 /// `fmi2GetFMUstate`: a state that is there already is overwritten.

@@ -5,7 +5,7 @@ use std::ffi::{CStr, CString, c_char, c_int, c_uint, c_void};
 use std::ptr::{null, null_mut};
 
 use crate::fmi::Identity;
-use crate::fmi::v2::state::{Call, State};
+use crate::fmi::v2::phase::{Call, Phase};
 use crate::fmi::v2::toy::{Size, Toy, vr};
 use host::{ERROR, Host, OK, TRUE};
 

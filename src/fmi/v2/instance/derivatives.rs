@@ -4,7 +4,7 @@ use super::{Instance, lookup};
 use crate::fmi::model::Model;
 use crate::fmi::v2::capabilities::Capabilities;
 use crate::fmi::v2::error::Error;
-use crate::fmi::v2::state::{Call, State};
+use crate::fmi::v2::phase::{Call, Phase};
 use crate::variables::{Bounds, Derivative, Variable};
 
 /// The highest order of derivatives.
@@ -44,7 +44,7 @@ impl<M: Model> Instance<M> {
         self.now.observe()?;
         let elapsed = self.now.time - self.now.start_time;
         // After a failure nothing is computed any more.
-        if let (State::Running | State::Terminated, Some(model)) = (self.now.state, &self.now.model) {
+        if let (Phase::Running | Phase::Terminated, Some(model)) = (self.now.phase, &self.now.model) {
             model.differentiate(&mut self.now.data, elapsed);
         }
         for ((reference, order), value) in references.iter().zip(orders).zip(values) {

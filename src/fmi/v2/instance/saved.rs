@@ -11,13 +11,13 @@
 //! The number of the layout is a hash of the names and kinds of all that the content consists of, taken down while it
 //! passes by a tape: who changes what is remembered changes the number and need not think of it.
 
-use super::{Instance, Situation};
+use super::{Instance, Snapshot};
 use crate::bytes::{Memory, Tape};
 use crate::fmi::hash::fnv1a;
 use crate::fmi::identity::Identity;
 use crate::fmi::model::Model;
 use crate::fmi::v2::error::Error;
-use crate::fmi::v2::state::{Call, State};
+use crate::fmi::v2::phase::{Call, Phase};
 use crate::pass;
 use crate::variables::{Kind, Table};
 
@@ -25,12 +25,12 @@ use crate::variables::{Kind, Table};
 const PREFIX: &str = "FMI 2.0 state, ";
 
 /// Longest simulation that is believed \[s\]: centuries.
-const LONGEST: f64 = 1e10;
+const LONGEST_RUN: f64 = 1e10;
 
 /// A copy of all that influences the future of an instance.
 pub struct Saved<M: Model> {
     structure: M::Structure,
-    then: Situation<M>,
+    then: Snapshot<M>,
 }
 
 impl<M: Model> Instance<M> {
@@ -62,7 +62,7 @@ impl<M: Model> Instance<M> {
         self.permit(Call::DeSerializeFMUstate)?;
         let Some(rest) = bytes.strip_prefix(self.title().as_bytes()) else { return Err(self.foreign(bytes)) };
         let content = unwrap(bytes, rest)?;
-        let then = self.read_situation(content).map_err(|reason| Error::Content { reason })?;
+        let then = self.read_snapshot(content).map_err(|reason| Error::Content { reason })?;
         Ok(Saved { structure: self.unit.structure, then })
     }
 
@@ -108,7 +108,7 @@ impl<M: Model> Instance<M> {
     fn layout(&self) -> String {
         let structure = self.unit.structure;
         // The library's own start values, which no unit has to do without: they always go together.
-        let mut then = Situation::<M>::new(M::start(structure));
+        let mut then = Snapshot::<M>::new(M::start(structure));
         let mut model = M::initialize(structure, &mut then.data, 0.0).ok();
         let mut words = String::new();
         let mut tape = Tape::describing(&mut words);
@@ -148,15 +148,15 @@ impl<M: Model> Instance<M> {
         }
     }
 
-    fn read_situation(&self, content: &[u8]) -> Result<Situation<M>, String> {
+    fn read_snapshot(&self, content: &[u8]) -> Result<Snapshot<M>, String> {
         let mut tape = Tape::playing(content);
-        let mut then = Situation::new(self.unit.start.clone());
+        let mut then = Snapshot::new(self.unit.start.clone());
         let mut has_model = false;
         then.pass(&self.table, &mut has_model, &mut tape);
         tape.check().map_err(|error| error.to_string())?;
-        let Situation { data, start_time, stop_time, time, .. } = &mut then;
+        let Snapshot { data, start_time, stop_time, time, .. } = &mut then;
         let elapsed = *time - *start_time;
-        if !(time.is_finite() && elapsed.abs() <= LONGEST) || stop_time.is_some_and(|stop| !stop.is_finite()) {
+        if !(time.is_finite() && elapsed.abs() <= LONGEST_RUN) || stop_time.is_some_and(|stop| !stop.is_finite()) {
             return Err(format!("the times {start_time}, {time} and {stop_time:?} do not go together"));
         }
         for variable in self.table.variables() {
@@ -175,12 +175,12 @@ impl<M: Model> Instance<M> {
     }
 }
 
-impl<M: Model> Situation<M> {
+impl<M: Model> Snapshot<M> {
     /// Passes all but the model by a tape.
     fn pass(&mut self, table: &Table<M::Data>, has_model: &mut bool, tape: &mut Tape<'_>) {
         // Without "..": whoever adds a field decides here how it is written.
-        let Self { state, data, model: _, start_time, stop_time, time, observed, retuned } = self;
-        tape.one_of(state, &State::ALL);
+        let Self { phase, data, model: _, start_time, stop_time, time, observed, retuned } = self;
+        tape.one_of(phase, &Phase::ALL);
         pass!(tape: start_time, stop_time, time, observed, retuned);
         for variable in table.variables() {
             tape.name(&variable.name);

@@ -83,7 +83,7 @@ fn outputs_without_a_value_are_an_error_once_and_the_simulation_is_over() {
     assert_eq!(real(&mut toy, vr::POSITION), 1e200);
     let found = message(toy.get(&[vr::SQUARE], &mut [0.0]));
     assert_eq!(found, format!("the outputs at t = 1 s: the square of {} is too large", 1e200));
-    assert_eq!(toy.state(), State::Failed);
+    assert_eq!(toy.phase(), Phase::Failed);
     assert_eq!(real(&mut toy, vr::SQUARE), 1.0);
     assert!(toy.do_step(1.0, 1.0).is_err());
 }
@@ -116,7 +116,7 @@ fn inconsistent_parameters_block_outputs_only_and_can_be_corrected() {
     );
     toy.enter_initialization().unwrap();
     assert_eq!(message(toy.exit_initialization()), "the simulation cannot begin: gain = 7 is above limit = 6");
-    assert_eq!(toy.state(), State::Initialization);
+    assert_eq!(toy.phase(), Phase::Initialization);
     assert_eq!(toy.now.data.position, 0.0, "nothing half-written");
     set(&mut toy, vr::LIMIT, 8.0).unwrap();
     toy.exit_initialization().unwrap();
@@ -202,7 +202,7 @@ fn steps_must_follow_each_other() {
         let expected = format!("communicationStepSize must be a finite number, at least 0, but is {size}");
         assert_eq!(message(toy.do_step(0.1, size)), expected);
     }
-    assert_eq!((toy.state(), toy.time()), (State::Running, 0.1));
+    assert_eq!((toy.phase(), toy.time()), (Phase::Running, 0.1));
     toy.do_step(0.1 + 1e-9, 0.0).unwrap();
     assert_eq!(toy.time(), 0.1, "no step, no change");
     toy.do_step(0.100_000_000_01, 0.009_999_999_999_998_455).unwrap();
@@ -239,7 +239,7 @@ fn an_instance_with_a_failed_step_can_only_be_looked_at_ended_or_reset() {
     let mut toy = running();
     toy.set(&[vr::FAULT], &[2]).unwrap();
     assert_eq!(message(toy.do_step(0.0, 0.5)), "the step from t = 0 s by 0.5 s failed: told to fail");
-    assert_eq!((toy.state(), toy.time()), (State::Failed, 0.0));
+    assert_eq!((toy.phase(), toy.time()), (Phase::Failed, 0.0));
     assert_eq!(message(toy.do_step(0.0, 0.5)), "not allowed in the state \"failed\"; allowed in: initialized");
     assert!(set(&mut toy, vr::RATE, 1.0).is_err());
     assert_eq!(real(&mut toy, vr::FAULT), 2.0);
@@ -315,7 +315,7 @@ proptest! {
             if result.is_ok() || failed_step {
                 let _ = act(&mut faultless, action);
             }
-            prop_assert_eq!(toy.state(), faultless.state());
+            prop_assert_eq!(toy.phase(), faultless.phase());
             prop_assert_eq!(format!("{:?}", toy.now.data), format!("{:?}", faultless.now.data));
         }
     }

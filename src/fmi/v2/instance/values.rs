@@ -5,7 +5,7 @@
 
 use crate::fmi::v2::c_types::{Boolean, Integer, Real};
 use crate::fmi::v2::error::Error;
-use crate::fmi::v2::state::Call;
+use crate::fmi::v2::phase::Call;
 use crate::variables::options::{Choice, Item};
 use crate::variables::{Kind, Variable};
 

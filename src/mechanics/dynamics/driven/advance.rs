@@ -5,12 +5,12 @@ use super::{Driven, Torques};
 use crate::error::Result;
 use crate::mechanics::dynamics::advance::{MOST_STEPS, SAME_INSTANT, TUMBLING};
 use crate::mechanics::dynamics::contact::{NO_GAP, lowest, switching_instant};
-use crate::mechanics::dynamics::law::Scene;
+use crate::mechanics::dynamics::law::StepContext;
 use crate::mechanics::dynamics::{Account, Dynamics, Impulse, Loads, Motion, Node, Situation, in_inertial_frame};
-use crate::mechanics::planar::{Turn, vec2};
+use crate::mechanics::planar::{Rotation, vec2};
 
 /// Longest internal step \[s\]: light links that start to swing are faster than their rates tell.
-const LONGEST: f64 = 0.53e-3;
+const LONGEST_INTERNAL_STEP: f64 = 0.53e-3;
 
 /// Longest internal step times the fastest rate of control, support or turning.
 const RESOLUTION: f64 = 0.02;
@@ -37,7 +37,7 @@ impl<const N: usize> Dynamics<N> {
         let mut until_sample = self.sample(&mut situation.state, loads.begin, t);
         let sample_time = if until_sample.is_finite() { self.autopilot.sample_time } else { f64::INFINITY };
         let mut phase = Phase::new(situation.flow(self.base));
-        let Situation { state, turn, node } = situation;
+        let Situation { state, rotation, node } = situation;
         let (start, before) = (state.position, state.momentum);
         // Momenta stay where imposed rates and masses jump: the rates of the driven joints jump along.
         node.move_at(&motion.rate);
@@ -48,7 +48,7 @@ impl<const N: usize> Dynamics<N> {
         let mut room = None;
         while elapsed < size {
             let left = size - elapsed;
-            let scene = Scene {
+            let context = StepContext {
                 loads,
                 elapsed,
                 held: state.held,
@@ -63,13 +63,13 @@ impl<const N: usize> Dynamics<N> {
             }
             let piece = if until_sample < left - SAME_INSTANT { until_sample } else { left };
             let length = if piece > longest { piece / (piece / longest).ceil() } else { piece };
-            let after = |length: f64| self.driven_step(&phase, node, length, &scene, (driven, torques));
-            let margin = |(phase, node): &(Phase<N>, Node<N>)| self.margin(&phase.flow, node, &scene);
+            let after = |length: f64| self.driven_step(&phase, node, length, &context, (driven, torques));
+            let margin = |(phase, node): &(Phase<N>, Node<N>)| self.margin(&phase.flow, node, &context);
             let mut covered = length;
             let mut step = after(length);
-            let within = if stuck { None } else { self.switches(&(phase, *node), &step, length, &scene, &after) };
+            let within = if stuck { None } else { self.switches(&(phase, *node), &step, length, &context, &after) };
             if let Some(bracket) = within {
-                let begin = self.margin(&phase.flow, node, &scene);
+                let begin = self.margin(&phase.flow, node, &context);
                 covered = switching_instant(begin, bracket, &|length| margin(&after(length)));
                 step = after(covered);
                 state.contact = !state.contact;
@@ -87,8 +87,8 @@ impl<const N: usize> Dynamics<N> {
         state.position = start + motion.way(size) + phase.way;
         let rate = node.rate;
         node.take(&self.vehicle, &state.position, state.held, &rate);
-        [phase.flow[8], phase.flow[9]] = Turn::by(phase.flow[2]).cos_sin();
-        *turn = self.arm_turn(&phase.flow);
+        [phase.flow[8], phase.flow[9]] = Rotation::by(phase.flow[2]).cos_sin();
+        *rotation = self.arm_rotation(&phase.flow);
         self.settle(state, &phase.flow, node);
         driven.momentum += driven.part(&(phase.outboard + torques.impulse(size)));
         if let Account::Outboard(outboard) = account {
@@ -103,17 +103,17 @@ impl<const N: usize> Dynamics<N> {
         begin: &(Phase<N>, Node<N>),
         end: &(Phase<N>, Node<N>),
         size: f64,
-        scene: &Scene<'_, N>,
+        context: &StepContext<'_, N>,
         after: &dyn Fn(f64) -> (Phase<N>, Node<N>),
     ) -> Option<f64> {
-        if !scene.held || self.support.stiffness == 0.0 {
+        if !context.held || self.support.stiffness == 0.0 {
             return None;
         }
-        let margin = |(phase, node): &(Phase<N>, Node<N>)| self.margin(&phase.flow, node, scene);
+        let margin = |(phase, node): &(Phase<N>, Node<N>)| self.margin(&phase.flow, node, context);
         let rate = |(phase, node): &(Phase<N>, Node<N>)| {
-            let turn = self.arm_turn(&phase.flow);
-            let velocity = in_inertial_frame(turn, self.base_velocity(&phase.flow, turn, node));
-            scene.side() * self.gap_rate(turn, node, &velocity)
+            let rotation = self.arm_rotation(&phase.flow);
+            let velocity = in_inertial_frame(rotation, self.base_velocity(&phase.flow, rotation, node));
+            context.side() * self.gap_rate(rotation, node, &velocity)
         };
         if margin(end) < -NO_GAP {
             return Some(size);
@@ -124,14 +124,14 @@ impl<const N: usize> Dynamics<N> {
 
     /// The longest internal step that resolves autopilot, support and turning.
     fn longest_driven_step(&self, phase: &Phase<N>, node: &Node<N>, driven: &Driven<N>, contact: bool) -> f64 {
-        let turn = self.arm_turn(&phase.flow);
-        let roll_rate = self.base_velocity(&phase.flow, turn, node).angular;
+        let rotation = self.arm_rotation(&phase.flow);
+        let roll_rate = self.base_velocity(&phase.flow, rotation, node).angular;
         let turning = self.turning(&node.rate) + TUMBLING * roll_rate.abs();
         let mut fastest = turning.max(self.control_rate);
         if contact {
-            let mobility = self.payload_mobility(node, driven, turn.undo(vec2(0.0, 1.0)));
+            let mobility = self.payload_mobility(node, driven, rotation.undo(vec2(0.0, 1.0)));
             fastest = fastest.max((self.support.stiffness * mobility).sqrt());
         }
-        LONGEST.min(RESOLUTION / fastest)
+        LONGEST_INTERNAL_STEP.min(RESOLUTION / fastest)
     }
 }

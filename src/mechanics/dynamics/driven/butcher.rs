@@ -8,7 +8,7 @@ use nalgebra::SVector;
 
 use super::{Driven, Torques};
 use crate::mechanics::dynamics::Dynamics;
-use crate::mechanics::dynamics::law::{Flow, Node, Scene, turned};
+use crate::mechanics::dynamics::law::{Flow, Node, StepContext, turned};
 use crate::mechanics::kinematics::Displacement;
 use crate::mechanics::momentum::Twist;
 use crate::mechanics::planar::vec2;
@@ -67,15 +67,15 @@ impl<const N: usize> Dynamics<N> {
         phase: &Phase<N>,
         node: &Node<N>,
         size: f64,
-        scene: &Scene<'_, N>,
+        context: &StepContext<'_, N>,
         (driven, torques): (&Driven<N>, &Torques<N>),
     ) -> (Phase<N>, Node<N>) {
         let arm = |at: &Phase<N>, t: f64| {
-            let way = scene.motion.way(t) + (at.way - phase.way);
+            let way = context.motion.way(t) + (at.way - phase.way);
             let mut there = *node;
             let way = Displacement::small(&self.vehicle, &way);
-            there.follow(&self.vehicle, node, &way, scene.held, &scene.motion.rate_after(t));
-            let momentum = driven.momentum + at.outboard + torques.impulse(scene.elapsed + t);
+            there.follow(&self.vehicle, node, &way, context.held, &context.motion.rate_after(t));
+            let momentum = driven.momentum + at.outboard + torques.impulse(context.elapsed + t);
             self.move_driven(&mut there, driven, self.momentum_in_uav(&at.flow), &momentum);
             there
         };
@@ -85,10 +85,10 @@ impl<const N: usize> Dynamics<N> {
             let t = NODES[stage] * size;
             let at = phase.after(&rates[..stage], &STAGE[stage], size);
             let there = if stage == 0 { *node } else { arm(&at, t) };
-            let load = scene.loads.present(scene.elapsed + t, &mut room);
+            let load = context.loads.present(context.elapsed + t, &mut room);
             let mut flow = Flow::zeros();
-            self.law(&mut flow, &at.flow, &there, load, scene);
-            let outboard = self.outboard_load(&there, &self.carrier(&at.flow, &flow), scene.held, load);
+            self.law(&mut flow, &at.flow, &there, load, context);
+            let outboard = self.outboard_load(&there, &self.carrier(&at.flow, &flow), context.held, load);
             rates[stage] = Phase { flow, way: driven.part(&there.rate), outboard };
         }
         let mut end = phase.after(&rates, &STEP, size);
@@ -99,7 +99,7 @@ impl<const N: usize> Dynamics<N> {
 
     /// Momentum of the whole system in the axes of the UAV frame.
     pub(super) fn momentum_in_uav(&self, y: &Flow) -> Twist {
-        Twist { linear: self.arm_turn(y).undo(vec2(y[3], y[4])), angular: y[5] }
+        Twist { linear: self.arm_rotation(y).undo(vec2(y[3], y[4])), angular: y[5] }
     }
 }
 
@@ -133,9 +133,9 @@ mod tests {
             for n in 0..steps {
                 let elapsed = size * f64::from(n);
                 let motion = motion.after(elapsed);
-                let scene =
-                    Scene { loads: &loads, elapsed, held: false, contact: false, sampled: Vec2::zeros(), motion };
-                (phase, node) = dynamics.driven_step(&phase, &node, size, &scene, (&driven, &torques));
+                let context =
+                    StepContext { loads: &loads, elapsed, held: false, contact: false, sampled: Vec2::zeros(), motion };
+                (phase, node) = dynamics.driven_step(&phase, &node, size, &context, (&driven, &torques));
             }
             (phase.flow, phase.way)
         };

@@ -4,7 +4,7 @@
 //! in its way.
 
 use uam::control::PATH_THRESHOLD;
-use uam::mechanics::planar::{Turn, Vec2};
+use uam::mechanics::planar::{Rotation, Vec2};
 use uam::parameters::PathAxes;
 
 use super::{Check, Now};
@@ -59,7 +59,7 @@ impl<'a> Met<'a> {
     fn is_free(&self, now: &Now<'_>) -> bool {
         let [x, y, roll] = now.seen.pose();
         let mount = &self.case.parameters.mount;
-        let joint = Vec2::new(x, y) + Turn::by(roll).apply(Vec2::new(mount.x, mount.y));
+        let joint = Vec2::new(x, y) + Rotation::by(roll).apply(Vec2::new(mount.x, mount.y));
         let [x, y] = now.seen.reference();
         let distance = (Vec2::new(x, y) - joint).norm();
         let reachable = (self.near[0]..=self.near[1]).contains(&distance) && roll.abs() < UPRIGHT;

@@ -1,6 +1,6 @@
 //! Wanted motions.
 
-use uam::mechanics::planar::{Turn, Vec2};
+use uam::mechanics::planar::{Rotation, Vec2};
 use uam::parameters::PathAxes;
 use uam::reference::{Circle, Leg, Profile, Reference, ReferenceKind, Target};
 use uam::{Parameters, Structure};
@@ -85,7 +85,7 @@ fn legs(draw: &mut Draw, reference: &mut Reference, reach: f64, moving: f64) {
         let way = if i > 0 && draw.percent(50) {
             -before
         } else {
-            Turn::by(draw.about_zero(std::f64::consts::PI)).down() * size
+            Rotation::by(draw.about_zero(std::f64::consts::PI)).down() * size
         };
         let duration = share * draw.between(0.3, 0.99);
         let profile = draw.weighed(&[(3, Profile::Smooth), (1, Profile::Trapezoidal)]);
@@ -102,7 +102,7 @@ fn jumps(draw: &mut Draw, reach: f64, moving: f64, rests: bool) -> Vec<(f64, [f6
         .map(|_| {
             let size = reach * draw.scale(0.01, 0.4);
             let size = if rests { size.min(SHORT) } else { size };
-            let way = Turn::by(draw.about_zero(std::f64::consts::PI)).down() * size;
+            let way = Rotation::by(draw.about_zero(std::f64::consts::PI)).down() * size;
             (draw.between(0.1, 0.99) * moving, [way.x, way.y])
         })
         .collect()

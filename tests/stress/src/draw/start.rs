@@ -1,6 +1,6 @@
 //! Where the arm is at the start.
 
-use uam::mechanics::planar::{Turn, Vec2};
+use uam::mechanics::planar::{Rotation, Vec2};
 use uam::{Parameters, Structure};
 
 use super::Draw;
@@ -44,12 +44,12 @@ fn balanced(structure: Structure, p: &Parameters, hanging: bool) -> f64 {
     let (mut angle, mut joint, mut moment, mut mass) = (0.0, Vec2::zeros(), Vec2::zeros(), 0.0);
     for (i, link) in p.links[..structure.links].iter().enumerate() {
         angle += if i == 0 { 0.0 } else { p.joints[i].start };
-        let along = Turn::by(angle).down();
+        let along = Rotation::by(angle).down();
         moment += (joint + along * link.com) * link.mass;
         joint += along * link.length;
         mass += link.mass;
     }
-    let aside = |first: f64| Turn::by(first).apply(moment).x + mass * p.mount.x;
+    let aside = |first: f64| Rotation::by(first).apply(moment).x + mass * p.mount.x;
     // It changes its sign once on the way from farthest left to farthest right; the way round leads below or above.
     let half = std::f64::consts::PI;
     let farthest = |sign: f64| {
@@ -58,7 +58,7 @@ fn balanced(structure: Structure, p: &Parameters, hanging: bool) -> f64 {
     let (Some(left), Some(right)) = (farthest(-1.0), farthest(1.0)) else { return 0.0 };
     let ways = [right, if right > left { right - 2.0 * half } else { right + 2.0 * half }];
     let roots = ways.map(|right| bisect(aside, left, right));
-    let height = |first: f64| Turn::by(first).apply(moment).y;
+    let height = |first: f64| Rotation::by(first).apply(moment).y;
     let [lower, upper] = if height(roots[0]) <= height(roots[1]) { roots } else { [roots[1], roots[0]] };
     let root = if hanging { lower } else { upper };
     if root > half { root - 2.0 * half } else { root }

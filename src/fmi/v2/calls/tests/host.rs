@@ -97,19 +97,19 @@ impl Host {
     }
 
     /// An instance that has been brought to a state.
-    pub fn at(&self, state: State) -> Component {
+    pub fn at(&self, phase: Phase) -> Component {
         let component = self.instantiate();
         // SAFETY: the handle is good.
         unsafe {
-            match state {
-                State::Instantiated => {}
-                State::Initialization => assert_eq!(fmi2EnterInitializationMode(component.handle), OK),
-                State::Running => component.initialize(),
-                State::Terminated => {
+            match phase {
+                Phase::Instantiated => {}
+                Phase::Initialization => assert_eq!(fmi2EnterInitializationMode(component.handle), OK),
+                Phase::Running => component.initialize(),
+                Phase::Terminated => {
                     component.initialize();
                     assert_eq!(fmi2Terminate(component.handle), OK);
                 }
-                State::Failed => {
+                Phase::Failed => {
                     component.initialize();
                     component.set_real(&[vr::FAULT], &[2.0]);
                     assert_eq!(component.step(0.0, 1.0), ERROR);

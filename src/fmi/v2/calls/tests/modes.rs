@@ -105,31 +105,31 @@ fn call(call: Call, c: *mut c_void, state: *mut c_void) -> c_int {
 /// Whether the unit offers what the call is for.
 fn offered(call: Call) -> bool {
     !matches!(call, Call::GetIntegerStatus | Call::GetDirectionalDerivative)
-        && State::ALL.into_iter().any(|state| call.allowed_in(state))
+        && Phase::ALL.into_iter().any(|phase| call.allowed_in(phase))
 }
 
 #[test]
 fn every_call_is_answered_in_every_state_as_the_table_says() {
     let host = Host::new();
-    for state in State::ALL {
+    for phase in Phase::ALL {
         for what in CALLS {
-            let (toy, other) = (host.at(state), host.instantiate());
+            let (toy, other) = (host.at(phase), host.instantiate());
             let mut saved = null_mut();
             // SAFETY: the handle is good.
             assert_eq!(unsafe { fmi2GetFMUstate(other.handle, &raw mut saved) }, OK);
             let status = call(what, toy.handle, saved);
-            let expected = if what.allowed_in(state) && offered(what) { OK } else { ERROR };
-            assert_eq!(status, expected, "{what} while {state}: {:?}", host.messages());
+            let expected = if what.allowed_in(phase) && offered(what) { OK } else { ERROR };
+            assert_eq!(status, expected, "{what} while {phase}: {:?}", host.messages());
 
             if expected == ERROR {
                 let text = host.last().text;
                 assert!(text.starts_with(&format!("{what}: ")), "{text}");
                 if offered(what) {
-                    assert!(text.contains(&format!("\"{state}\"")), "{text}");
+                    assert!(text.contains(&format!("\"{phase}\"")), "{text}");
                 }
                 assert_eq!(toy.reset(), OK);
                 toy.initialize();
-                assert_eq!(toy.step(0.0, 0.1), OK, "still usable after {what} while {state}");
+                assert_eq!(toy.step(0.0, 0.1), OK, "still usable after {what} while {phase}");
             }
         }
     }

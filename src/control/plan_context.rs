@@ -11,13 +11,13 @@ use crate::bytes::{Memory, Tape};
 use crate::control::qp::{Place, Places};
 use crate::mechanics::dynamics::{Dynamics, Motion, Node, Situation, State};
 use crate::mechanics::momentum::Twist;
-use crate::mechanics::planar::{Turn, Vec2};
+use crate::mechanics::planar::{Rotation, Vec2};
 use crate::parameters::Hold;
 use crate::pass;
 
 /// The laws, the method and the present.
 #[derive(Debug, Clone)]
-pub(super) struct Outset<const N: usize> {
+pub(super) struct PlanContext<const N: usize> {
     pub dynamics: Dynamics<N>,
     pub resolver: Resolver,
     pub hold: Hold,
@@ -36,12 +36,12 @@ pub(super) struct Outset<const N: usize> {
     pub owed: f64,
 }
 
-impl<const N: usize> Outset<N> {
+impl<const N: usize> PlanContext<N> {
     /// How the system answers to the rates that the resolution may use, where the arm is at `node` and turned by
-    /// `turn`, with the momentum of `state`.
+    /// `rotation`, with the momentum of `state`.
     #[inline]
-    pub fn response(&self, node: &Node<N>, turn: Turn, state: &State<N>) -> Response<N> {
-        Response::new(&self.dynamics, node, turn, state.momentum_in(turn), self.resolver.holds_balancer)
+    pub fn response(&self, node: &Node<N>, rotation: Rotation, state: &State<N>) -> Response<N> {
+        Response::new(&self.dynamics, node, rotation, state.momentum_in(rotation), self.resolver.holds_balancer)
     }
 
     /// What is asked of the moment where the system answers with `response`, so that at the end of the interval what the
@@ -85,8 +85,8 @@ impl<const N: usize> Outset<N> {
 
     /// Velocity of the end effector in the `situation`, where the base moves with `base` (axes of the UAV frame);
     /// inertial frame \[m/s\].
-    pub fn end_effector_velocity(&self, Situation { node, turn, .. }: &Situation<N>, base: Twist) -> Vec2 {
-        self.dynamics.velocity_at(node, *turn, node.posture.end_effector, base)
+    pub fn end_effector_velocity(&self, Situation { node, rotation, .. }: &Situation<N>, base: Twist) -> Vec2 {
+        self.dynamics.velocity_at(node, *rotation, node.posture.end_effector, base)
     }
 
     /// Brings `end`, which has begun an explicit step in `here`, to its end at the rates `rate`, to which the system
@@ -105,7 +105,7 @@ impl<const N: usize> Outset<N> {
     }
 }
 
-impl<const N: usize> Memory for Outset<N> {
+impl<const N: usize> Memory for PlanContext<N> {
     fn pass(&mut self, tape: &mut Tape<'_>) {
         // Without "..": whoever adds a field decides here whether it follows from the parameters.
         let Self { dynamics, resolver: _, hold: _, now, motion, before, places, damping, owed } = self;

@@ -1,9 +1,19 @@
 //! Communication points of a run.
 
-use super::Error;
-
 /// Most steps that a run may have: what is recorded stays in memory.
-pub const LONGEST: f64 = 5e6;
+pub const MOST_STEPS: f64 = 5e6;
+
+/// A schedule that makes no sense.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{name} must be {expected}, but is {found}")]
+pub struct ScheduleError {
+    /// Which number.
+    pub name: &'static str,
+    /// What is allowed.
+    pub expected: String,
+    /// The number.
+    pub found: f64,
+}
 
 /// Times at which values are exchanged: t0 + n h, and the end, where a shorter step may be left.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,25 +42,26 @@ impl Schedule {
     ///
     /// # Errors
     /// If the times are not finite or in order, or there are too many steps.
-    pub fn new(start: f64, stop: f64, step: f64) -> Result<Self, Error> {
+    pub fn new(start: f64, stop: f64, step: f64) -> Result<Self, ScheduleError> {
         if !start.is_finite() {
-            return Err(Error::Schedule { name: "the start time", expected: "a finite number".into(), found: start });
+            return Err(ScheduleError { name: "the start time", expected: "a finite number".into(), found: start });
         }
         let duration = stop - start;
         if !(duration.is_finite() && duration > 0.0) {
             let expected = format!("a finite number of seconds after the start at {start} s");
-            return Err(Error::Schedule { name: "the stop time", expected, found: stop });
+            return Err(ScheduleError { name: "the stop time", expected, found: stop });
         }
-        let shortest = duration / LONGEST;
+        let shortest = duration / MOST_STEPS;
         if !(step >= shortest && step <= duration) {
-            let expected =
-                format!("a number of seconds from {shortest} to {duration} (the whole run, {LONGEST} steps at most)");
-            return Err(Error::Schedule { name: "the communication step", expected, found: step });
+            let expected = format!(
+                "a number of seconds from {shortest} to {duration} (the whole run, {MOST_STEPS} steps at most)"
+            );
+            return Err(ScheduleError { name: "the communication step", expected, found: step });
         }
         // A rest that comes from rounding is no step of its own.
         let whole = (duration / step + 1e-6).floor();
         let rest = duration - whole * step;
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 1 to LONGEST")]
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 1 to MOST_STEPS")]
         let whole_steps = whole as u32;
         Ok(Self { start, stop, step, whole_steps, rest: if rest > 1e-6 * step { rest } else { 0.0 } })
     }

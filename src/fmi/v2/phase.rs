@@ -4,7 +4,7 @@ use std::fmt;
 
 /// Where an instance stands between instantiation and release.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum State {
+pub enum Phase {
     /// New, or reset.
     Instantiated,
     /// Between `fmi2EnterInitializationMode` and `fmi2ExitInitializationMode`.
@@ -17,7 +17,7 @@ pub enum State {
     Failed,
 }
 
-impl State {
+impl Phase {
     /// All states, in the order of the columns of the table in [`Call::allowed_in`].
     pub const ALL: [Self; 5] =
         [Self::Instantiated, Self::Initialization, Self::Running, Self::Terminated, Self::Failed];
@@ -29,7 +29,7 @@ impl State {
     }
 }
 
-impl fmt::Display for State {
+impl fmt::Display for Phase {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Instantiated => "instantiated",
@@ -97,7 +97,7 @@ impl Call {
     /// ended, because hosts do it and it does no harm.
     #[must_use]
     #[rustfmt::skip]
-    pub fn allowed_in(self, state: State) -> bool {
+    pub fn allowed_in(self, phase: Phase) -> bool {
         use Call::*;
 
         let [instantiated, initialization, running, terminated, failed] = match self {
@@ -124,12 +124,12 @@ impl Call {
                 | SerializedFMUstateSize | SerializeFMUstate
                 | DeSerializeFMUstate                          => [X, X, X, X, X],
         };
-        match state {
-            State::Instantiated => instantiated,
-            State::Initialization => initialization,
-            State::Running => running,
-            State::Terminated => terminated,
-            State::Failed => failed,
+        match phase {
+            Phase::Instantiated => instantiated,
+            Phase::Initialization => initialization,
+            Phase::Running => running,
+            Phase::Terminated => terminated,
+            Phase::Failed => failed,
         }
     }
 }
@@ -152,16 +152,16 @@ mod tests {
 
     #[test]
     fn reset_leads_out_of_every_state() {
-        for state in State::ALL {
-            assert!(Call::Reset.allowed_in(state), "{state}");
+        for phase in Phase::ALL {
+            assert!(Call::Reset.allowed_in(phase), "{phase}");
         }
     }
 
     #[test]
     fn a_failed_simulation_can_be_looked_at_and_ended_but_not_continued() {
-        assert!(Call::GetReal.allowed_in(State::Failed));
-        assert!(Call::Terminate.allowed_in(State::Failed));
-        assert!(!Call::SetReal.allowed_in(State::Failed));
-        assert!(!Call::DoStep.allowed_in(State::Failed));
+        assert!(Call::GetReal.allowed_in(Phase::Failed));
+        assert!(Call::Terminate.allowed_in(Phase::Failed));
+        assert!(!Call::SetReal.allowed_in(Phase::Failed));
+        assert!(!Call::DoStep.allowed_in(Phase::Failed));
     }
 }
