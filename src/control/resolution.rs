@@ -158,7 +158,7 @@ impl Resolver {
         interval: &Interval<'_, N>,
         problem: &Problem<N>,
     ) -> Resolved<N> {
-        let found = match self.kind {
+        let mut found = match self.kind {
             Resolution::LeastSquares => return self.least_squares(vehicle, interval, problem),
             Resolution::Gradient if interval.aims == Aims::All => {
                 let preferred = gradient::preferred(vehicle, interval.beginning, self.gradient_gain);
@@ -169,7 +169,7 @@ impl Resolver {
             // (thesis 3.2, 3.3 and 3.6).
             _ => self.along_path(problem, interval.aims == Aims::All && self.cancels_moment()),
         };
-        let found = self.set_going(vehicle, interval.beginning, problem, found);
+        self.set_going(vehicle, interval.beginning, problem, &mut found);
         self.limited(problem, &found)
     }
 
@@ -255,18 +255,18 @@ impl Resolver {
 
     /// Rates none of which exceeds its limit, with how they came about.
     fn limited<const N: usize>(&self, problem: &Problem<N>, found: &PseudoInverse<N>) -> Resolved<N> {
-        let (rate, status) = if self.admits(&found.rate) {
-            (found.rate, found.status())
-        } else {
-            self.path_within_limits(problem, found)
-        };
-        Resolved {
-            rate,
-            status,
+        let mut resolved = Resolved {
+            rate: found.rate,
+            status: found.status(),
             min_singular_value: found.min_singular_value,
-            momentum: problem.moment.row.dot(&rate),
+            momentum: 0.0,
             places: qp::FREE,
+        };
+        if !self.admits(&found.rate) {
+            (resolved.rate, resolved.status) = self.path_within_limits(problem, found);
         }
+        resolved.momentum = problem.moment.row.dot(&resolved.rate);
+        resolved
     }
 
     /// Rates within the limits where the `found` ones are not: of those that move the end effector alike the nearest ones,

@@ -57,8 +57,8 @@ impl Resolver {
         }
         let aims = interval.aims;
         let joints = Problem { path, velocity, moment, ..*problem };
-        let wanted = self.along_path(&joints, aims == Aims::All);
-        let wanted = self.set_going(vehicle, interval.beginning, &joints, wanted);
+        let mut wanted = self.along_path(&joints, aims == Aims::All);
+        self.set_going(vehicle, interval.beginning, &joints, &mut wanted);
         let mut resolved = Resolved {
             rate: rate + wanted.rate,
             status: if allowed.returning && wanted.status() == Status::Ok {

@@ -23,21 +23,21 @@ const AS_GOOD_AS_SINGULAR: f64 = 1e-5;
 const SHORT: f64 = 1e-9;
 
 impl Resolver {
-    /// The rates `found` for the `problem`, or others that lead out of a singular configuration at the `beginning`.
+    /// Leads the rates `found` for the `problem` out of a singular configuration at the `beginning`. In place: a copy
+    /// would have to wait until what is copied has left the processor's store buffer.
     #[inline]
     pub(super) fn set_going<const N: usize>(
         &self,
         vehicle: &Vehicle<N>,
         beginning: &Situation<N>,
         problem: &Problem<N>,
-        found: PseudoInverse<N>,
-    ) -> PseudoInverse<N> {
+        found: &mut PseudoInverse<N>,
+    ) {
         if found.min_singular_value >= AS_GOOD_AS_SINGULAR * self.reach || self.axes == PathAxes::Horizontal {
-            return found;
+            return;
         }
-        match self.kick(vehicle, beginning, problem, &found) {
-            Some(kick) => PseudoInverse { rate: found.rate + kick, ..found },
-            None => found,
+        if let Some(kick) = self.kick(vehicle, beginning, problem, found) {
+            found.rate += kick;
         }
     }
 
