@@ -178,7 +178,7 @@ options! {
     pub enum Actuation {
         #[doc = " The commanded rate, whatever torque that takes."]
         Rate = "rate",
-        #[doc = " The commanded torque; none lets the joint rotation freely (thesis 3.6)."]
+        #[doc = " The commanded torque; none lets the joint turn freely (thesis 3.6)."]
         Torque = "torque",
     }
 }
@@ -266,7 +266,7 @@ options! {
         HorizontalThrust = "horizontal_thrust",
         #[doc = " Its altitude follows thrust and weight, but not the arm (thesis 2.3)."]
         VerticalThrust = "vertical_thrust",
-        #[doc = " The arm moves it in both directions, but does not rotation with it (thesis 2.4)."]
+        #[doc = " The arm moves it in both directions, but does not turn with it (thesis 2.4)."]
         Translating = "translating",
         #[doc = " It moves and turns freely with the arm on it (thesis 2.5)."]
         Full = "full",

@@ -13,7 +13,7 @@ options! {
     pub enum ReferenceKind {
         #[doc = " A path of straight legs, which add up where they overlap in time."]
         Path = "path",
-        #[doc = " One counter-clockwise rotation on a circle through the starting point."]
+        #[doc = " One counter-clockwise turn on a circle through the starting point."]
         Circle = "circle",
         #[doc = " Position, velocity and acceleration come as inputs."]
         External = "external",

@@ -10,8 +10,8 @@ use std::sync::LazyLock;
 
 use divan::Bencher;
 use divan::counter::ItemsCount;
-use fmu_build::coupling::{Pair, Schedule};
-use fmu_build::fmu::{Causality, Fmu, Instance, Selection, Value, Values};
+use fmu_build::host::coupling::{Pair, Schedule};
+use fmu_build::host::fmu::{Causality, Fmu, Instance, Selection, Value, Values};
 use fmu_build::{BuildOptions, Built, build};
 use uam::Structure;
 use uam::parameters::{Discretization, Resolution};

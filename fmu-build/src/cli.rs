@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
-use fmu_build::claims::DISCRETIZATIONS;
-use fmu_build::cross::TARGETS;
+use fmu_build::compile::cross::TARGETS;
+use fmu_build::study::claims::DISCRETIZATIONS;
 use uam::Structure;
 use uam::parameters::{Balance, Discretization, MAX_LINKS};
 use uam::variables::options::Choice;

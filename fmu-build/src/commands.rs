@@ -4,10 +4,10 @@ use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use anyhow::{Context, Result};
-use fmu_build::claims::DISCRETIZATIONS;
-use fmu_build::coupling::{self, Pair};
-use fmu_build::run::Run;
+use fmu_build::host::coupling::{self, Pair};
+use fmu_build::host::run::Run;
 use fmu_build::study::Summary;
+use fmu_build::study::claims::DISCRETIZATIONS;
 use fmu_build::{BuildOptions, Built, workspace};
 use indicatif::{ProgressBar, ProgressStyle};
 use uam::Structure;

@@ -1,5 +1,8 @@
 //! The units' shared libraries, compiled by a nested cargo.
 
+pub mod cross;
+mod universal;
+
 use std::env;
 use std::ffi::{OsStr, OsString};
 use std::fs;
@@ -10,9 +13,9 @@ use std::thread;
 
 use cargo_metadata::Message;
 
-use crate::cross::{Target, Toolchain};
 use crate::error::{Error, Result};
-use crate::{files, universal};
+use crate::files;
+use cross::{Target, Toolchain};
 
 /// Profile in the workspace's `Cargo.toml` for what goes into an FMU.
 const PROFILE: &str = "fmu";
@@ -248,7 +251,7 @@ mod tests {
 
     #[test]
     fn a_missing_library_is_named() {
-        let toolchain = Toolchain::Cross(&crate::cross::TARGETS[0]);
+        let toolchain = Toolchain::Cross(&crate::compile::cross::TARGETS[0]);
         let nothing = Compiled { toolchain, messages: Vec::new() };
         let error = nothing.library("uam_plant").unwrap_err().to_string();
         assert!(error.contains("uam_plant") && error.contains(".so"), "{error}");

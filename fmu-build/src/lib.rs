@@ -1,46 +1,29 @@
 //! Turns the two units into files, loads these back, couples them, and reports what happened.
 //!
-//! [`build`] writes FMUs, and an SSP that holds both; the modules are its steps. [`interface`] takes a
-//! unit's table of variables as plain data; [`description`], [`documentation`] and [`ssp`] write what hosts
-//! and people read of it; [`compile`] makes the libraries; [`package`] puts all together.
+//! Rooms know only what stands above them in this list:
 //!
-//! [`fmu`] loads units as any master would; [`coupling`] is such a master; [`run`] puts a scenario through
-//! it; [`claims`] sets the results beside the thesis, and [`report`] draws them; [`budget`] varies the step.
+//! ```text
+//! error, files, workspace, platform, formats     what all others need
+//! compile    libraries out of sources, for this machine and others
+//! package    FMUs and SSPs: descriptions, pages, archives
+//! host       FMUs loaded, coupled, run and recorded
+//! study      many runs: beside the thesis, with other numbers, with other steps
+//! report     what came out, as a page
+//! ```
+//!
+//! [`build`] writes FMUs, and an SSP that holds both.
 
-pub mod archive;
-pub mod budget;
-mod build;
-pub mod claims;
 pub mod compile;
-pub mod coupling;
-pub mod cross;
-pub mod description;
-pub mod design;
-pub mod documentation;
 pub mod error;
 pub mod files;
-pub mod fmu;
-mod html;
-pub mod interface;
-mod markdown;
-pub mod metadata;
+mod formats;
+pub mod host;
 pub mod package;
 pub mod platform;
-pub mod reach;
-pub mod record;
 pub mod report;
-pub mod run;
-pub mod settings;
-pub mod ssp;
 pub mod study;
-mod terminals;
-pub mod text;
-pub mod units;
-mod universal;
-pub mod variation;
 pub mod workspace;
-mod xml;
 
-pub use build::{BuildOptions, Built, build, write_descriptions};
-pub use design::Design;
 pub use error::{Error, Result};
+pub use package::build::{BuildOptions, Built, build, write_descriptions};
+pub use package::design::Design;

@@ -1,47 +1,17 @@
-//! An FMU: description, library, documentation, licences and picture in one archive.
+//! FMUs and SSPs as files.
+//!
+//! [`interface`] takes a unit's table of variables as plain data; [`description`], [`documentation`] and [`ssp`] write what hosts
+//! and people read of it; [`contents`] is all that an FMU holds, [`build`](mod@build) puts it together for a [`design`].
 
-use uam::fmi::start_file;
-
-use crate::archive::Archive;
-use crate::description::model_description;
-use crate::documentation;
-use crate::error::Result;
-use crate::platform::Platform;
-use crate::terminals;
-use crate::units::Unit;
-
-/// Texts of the licences, by name of the file.
-const LICENSES: [(&str, &str); 3] = [
-    ("LICENSE-MIT", include_str!("../../LICENSE-MIT")),
-    ("LICENSE-APACHE", include_str!("../../LICENSE-APACHE")),
-    ("THIRD-PARTY", THIRD_PARTY),
-];
-/// What in the libraries is by others, and under which licences.
-pub const THIRD_PARTY: &str = include_str!("../../modelDescription/THIRD-PARTY");
-
-/// The FMU of a unit with its library for each of some platforms.
-///
-/// # Errors
-/// If the model description cannot be put together.
-pub fn fmu(unit: &Unit, libraries: &[(Platform, Vec<u8>)]) -> Result<Archive> {
-    let mut archive = Archive::default();
-    archive.add("modelDescription.xml", model_description(&unit.interface)?);
-    for (platform, library) in libraries {
-        for path in platform.libraries(unit.interface.identifier) {
-            archive.add_executable(path, library.as_slice());
-        }
-    }
-    archive.add("documentation/index.html", documentation::page(unit));
-    for (name, text) in LICENSES {
-        archive.add(format!("documentation/licenses/{name}"), text);
-    }
-    archive.add("model.png", unit.icon);
-    if let Some(members) = &unit.terminal {
-        archive.add(format!("{}/terminalsAndIcons.xml", terminals::FOLDER), terminals::terminals_and_icons(members)?);
-        archive.add(format!("{}/icon.png", terminals::FOLDER), unit.icon);
-    }
-    if let Some(text) = &unit.interface.start_file {
-        archive.add(format!("resources/{}", start_file::NAME), text.as_str());
-    }
-    Ok(archive)
-}
+pub mod archive;
+pub mod build;
+pub mod contents;
+pub mod description;
+pub mod design;
+pub mod documentation;
+pub mod interface;
+pub mod metadata;
+pub mod ssp;
+mod terminals;
+pub mod text;
+pub mod units;

@@ -19,11 +19,11 @@ mod style;
 pub use figures::{Figure, Topic};
 pub use style::Paint;
 
-use crate::claims::Table;
 use crate::files::{self, Written};
-use crate::html::document;
-use crate::record::NotRecorded;
-use crate::run::Run;
+use crate::formats::html::document;
+use crate::host::record::NotRecorded;
+use crate::host::run::Run;
+use crate::study::claims::Table;
 
 /// A report that cannot be made.
 #[derive(Debug, thiserror::Error)]

@@ -1,18 +1,22 @@
 //! Scenarios with each discretization, beside what the thesis says; among them the pick-up of 4.3.
 
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
+pub mod budget;
+pub mod claims;
+pub mod reach;
+pub mod variation;
+
 use std::time::Duration;
 
+use rayon::prelude::*;
 use uam::Structure;
 use uam::parameters::Discretization;
 use uam::scenarios::{self, Scenario, catalogue};
 use uam::variables::options::Choice;
 
-use crate::claims::{self, Claim, DISCRETIZATIONS, Numbers, Quantity, Row, Table};
-use crate::coupling::{Error, Pair, Schedule};
-use crate::record::{Names, NotRecorded};
-use crate::run::{Run, run};
+use crate::host::coupling::{Error, Pair, Schedule};
+use crate::host::record::{Names, NotRecorded};
+use crate::host::run::{Run, run};
+use claims::{Claim, DISCRETIZATIONS, Numbers, Quantity, Row, Table};
 
 /// Runs a scenario at its own step with a discretization. `progress` hears of every communication point.
 ///
@@ -124,7 +128,7 @@ pub fn run_all<'a>(
         let run = run_with(pair(scenario.structure)?, scenario, discretization, progress)?;
         Ok(Outcome::of(&run)?)
     };
-    let outcomes = on_all_cores(&jobs, &run).into_iter().collect::<Result<Vec<Outcome>, Error>>()?;
+    let outcomes = on_all_cores(&jobs, run).into_iter().collect::<Result<Vec<Outcome>, Error>>()?;
     let (outcomes, _) = outcomes.as_chunks();
     let summary = |(scenario, outcomes): (_, &[Outcome; 2])| Summary { scenario, outcomes: outcomes.clone() };
     Ok(scenarios.clone().into_iter().zip(outcomes).map(summary).collect())
@@ -135,26 +139,10 @@ pub fn with_each<T>(items: &[T]) -> Vec<(&T, Discretization)> {
     items.iter().flat_map(|item| DISCRETIZATIONS.map(|discretization| (item, discretization))).collect()
 }
 
-/// Does all jobs, as many at a time as there are cores; results are in the order of the jobs.
-pub fn on_all_cores<J: Sync, R: Send>(jobs: &[J], work: &(dyn Fn(&J) -> R + Sync)) -> Vec<R> {
-    let next = AtomicUsize::new(0);
-    let done: Mutex<Vec<(usize, R)>> = Mutex::new(Vec::with_capacity(jobs.len()));
-    let worker = || {
-        while let Some((number, job)) = Some(next.fetch_add(1, Ordering::Relaxed)).and_then(|n| Some((n, jobs.get(n)?)))
-        {
-            let result = work(job);
-            done.lock().unwrap_or_else(std::sync::PoisonError::into_inner).push((number, result));
-        }
-    };
-    let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-    std::thread::scope(|scope| {
-        for _ in 0..cores.min(jobs.len()) {
-            scope.spawn(worker);
-        }
-    });
-    let mut done = done.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
-    done.sort_by_key(|(number, _)| *number);
-    done.into_iter().map(|(_, result)| result).collect()
+/// Does all jobs, as many at a time as there are cores; results are in the order of the jobs. Jobs take seconds, and some take
+/// ten times as long as others: each is handed out by itself.
+pub fn on_all_cores<J: Sync, R: Send>(jobs: &[J], work: impl Fn(&J) -> R + Sync + Send) -> Vec<R> {
+    jobs.par_iter().with_max_len(1).map(work).collect()
 }
 
 /// What is said of a pick-up beside the claims.

@@ -4,8 +4,8 @@
 
 mod common;
 
-use fmu_build::budget::{EULER, EXACT, Errors, Pilot, VARIANTS, Variant, Watch, observed_order};
-use fmu_build::coupling::Order;
+use fmu_build::host::coupling::Order;
+use fmu_build::study::budget::{EULER, EXACT, Errors, Pilot, VARIANTS, Variant, Watch, observed_order};
 use uam::parameters::Hold;
 use uam::scenarios::{Scenario, find};
 

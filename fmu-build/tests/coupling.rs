@@ -4,10 +4,10 @@
 
 mod common;
 
-use fmu_build::coupling::Schedule;
-use fmu_build::fmu::{Fmu, Selection, Value};
-use fmu_build::record::{Names, Recording};
-use fmu_build::run::run;
+use fmu_build::host::coupling::Schedule;
+use fmu_build::host::fmu::{Fmu, Selection, Value};
+use fmu_build::host::record::{Names, Recording};
+use fmu_build::host::run::run;
 use uam::coupling::{Unit, in_process};
 use uam::scenarios::{Scenario, find};
 

@@ -5,9 +5,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use fmu_build::Design;
-use fmu_build::description::model_description;
-use fmu_build::interface::{Interface, Value, Variable};
-use fmu_build::units::Unit;
+use fmu_build::package::description::model_description;
+use fmu_build::package::interface::{Interface, Value, Variable};
+use fmu_build::package::units::Unit;
 use roxmltree::{Document, Node};
 use uam::Structure;
 use uam::fmi::Naming;

@@ -9,12 +9,13 @@ use std::process::Command;
 use std::{env, fs};
 
 use digests::{Digest, EVERY};
+use fmu_build::compile::cross::{TARGETS, Toolchain};
 use fmu_build::compile::{compile, target_libraries};
-use fmu_build::coupling::{Schedule, configure};
-use fmu_build::cross::{TARGETS, Toolchain};
-use fmu_build::fmu::{Causality, Instance, Selection};
+use fmu_build::host::coupling::{Schedule, configure};
+use fmu_build::host::fmu::{Causality, Instance, Selection};
+use fmu_build::study::claims::DISCRETIZATIONS;
 use fmu_build::study::on_all_cores;
-use fmu_build::{claims::DISCRETIZATIONS, workspace};
+use fmu_build::workspace;
 use uam::coupling;
 use uam::parameters::Discretization;
 use uam::scenarios::{Scenario, catalogue};
@@ -104,7 +105,7 @@ fn line(scenario: &Scenario, discretization: Discretization) -> String {
 fn the_fmus_give_the_digests_under_version_control() {
     let scenarios = catalogue().unwrap();
     let runs: Vec<_> = scenarios.iter().flat_map(|scenario| DISCRETIZATIONS.map(|with| (scenario, with))).collect();
-    let lines = on_all_cores(&runs, &|(scenario, discretization)| line(scenario, *discretization));
+    let lines = on_all_cores(&runs, |(scenario, discretization)| line(scenario, *discretization));
     let found = lines.join("\n") + "\n";
     if env::var_os(REGENERATE).is_some() {
         fs::write(FILE, &found).unwrap();
@@ -118,7 +119,7 @@ fn the_fmus_give_the_digests_under_version_control() {
 fn units_in_this_process_give_them() {
     let scenarios = catalogue().unwrap();
     let runs: Vec<_> = scenarios.iter().flat_map(|scenario| DISCRETIZATIONS.map(|with| (scenario, with))).collect();
-    let lines = on_all_cores(&runs, &|(scenario, discretization)| {
+    let lines = on_all_cores(&runs, |(scenario, discretization)| {
         let mut variant = (*scenario).clone();
         variant.parameters.ik.discretization = *discretization;
         digests::in_process(&variant).unwrap().line(&scenario.id, discretization.name())

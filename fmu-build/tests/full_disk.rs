@@ -7,7 +7,7 @@
 
 use std::fs;
 
-use fmu_build::record::{Recording, write_csv};
+use fmu_build::host::record::{Recording, write_csv};
 
 /// No file of this process may have more bytes, and trying is an error instead of the end.
 fn limit_files(bytes: libc::rlim_t) {

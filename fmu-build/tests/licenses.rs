@@ -6,7 +6,7 @@ use std::collections::{BTreeSet, HashSet};
 use std::env;
 use std::process::Command;
 
-use fmu_build::package::THIRD_PARTY;
+use fmu_build::package::contents::THIRD_PARTY;
 use fmu_build::workspace;
 
 /// The packages in the libraries of both units, each with its licence: what is needed at run time, not what compiles.

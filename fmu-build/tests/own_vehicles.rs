@@ -7,11 +7,11 @@ use std::fs::{self, File};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use fmu_build::coupling::{Coupling, Pair, Schedule, configure};
-use fmu_build::fmu::{Fmu, Value};
-use fmu_build::package::fmu;
+use fmu_build::host::coupling::{Coupling, Pair, Schedule, configure};
+use fmu_build::host::fmu::{Fmu, Value};
+use fmu_build::package::contents::fmu;
+use fmu_build::package::units::Unit;
 use fmu_build::platform::Platform;
-use fmu_build::units::Unit;
 use fmu_build::{BuildOptions, Built, Design, build};
 use uam::fmi::Naming;
 use uam::scenarios::find;

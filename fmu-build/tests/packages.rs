@@ -6,11 +6,11 @@ use std::collections::HashSet;
 use std::io::{Cursor, Read};
 
 use fmu_build::Design;
-use fmu_build::documentation::page;
-use fmu_build::package::fmu;
+use fmu_build::package::contents::fmu;
+use fmu_build::package::documentation::page;
+use fmu_build::package::ssp::{Component, ssp};
+use fmu_build::package::units::Unit;
 use fmu_build::platform::{AARCH64_LINUX, DARWIN64, LINUX64, Platform, WIN64};
-use fmu_build::ssp::{Component, ssp};
-use fmu_build::units::Unit;
 use roxmltree::Document;
 use uam::Structure;
 use uam::parameters::Balance;
@@ -120,7 +120,9 @@ fn the_row_of_a_variable_says_which_numbers_stand_for_which_names() {
         for unit in Unit::pair(structure) {
             let html = page(&unit);
             for variable in &unit.interface.variables {
-                let fmu_build::interface::Value::Enumeration { options, start } = variable.value else { continue };
+                let fmu_build::package::interface::Value::Enumeration { options, start } = variable.value else {
+                    continue;
+                };
                 let name = format!("<td><code>{}</code></td>", variable.name);
                 let row = html.split("<tr>").find(|row| row.starts_with(&name)).unwrap();
                 for (number, item) in (1..).zip(options.items) {
@@ -265,7 +267,7 @@ fn the_parameter_set_serves_both_units_and_repeats_their_start_values() {
         let value: f64 = parameter.first_element_child().unwrap().attribute("value").unwrap().parse().unwrap();
         for unit in [&plant, &controller] {
             let variable = unit.interface.variables.iter().find(|variable| variable.name == name).unwrap();
-            let fmu_build::interface::Value::Real { start, .. } = variable.value else { panic!("{name}") };
+            let fmu_build::package::interface::Value::Real { start, .. } = variable.value else { panic!("{name}") };
             assert_eq!(value.to_bits(), start.to_bits(), "{name}");
         }
     }

@@ -7,11 +7,11 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use fmu_build::coupling::Pair;
-use fmu_build::cross::{TARGETS, Target, Toolchain};
-use fmu_build::fmu::{Fmu, Value};
+use fmu_build::compile::cross::{TARGETS, Target, Toolchain};
+use fmu_build::host::coupling::Pair;
+use fmu_build::host::fmu::{Fmu, Value};
+use fmu_build::package::units::Unit;
 use fmu_build::platform::DARWIN64;
-use fmu_build::units::Unit;
 use fmu_build::{BuildOptions, Built, Design, build};
 use object::macho::{CPU_TYPE_ARM64, DylibCommand, LC_CODE_SIGNATURE, LC_ID_DYLIB, MachHeader64};
 use object::read::macho::{FatArch, MachHeader, MachOFatFile32};

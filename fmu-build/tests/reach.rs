@@ -4,10 +4,10 @@
 
 mod common;
 
-use fmu_build::claims::DISCRETIZATIONS;
-use fmu_build::reach::{AGREEMENT, MOTIONS, Reach, STRIDE, Trial, comes_to_its_end, reach};
+use fmu_build::study::claims::DISCRETIZATIONS;
+use fmu_build::study::reach::{AGREEMENT, MOTIONS, Reach, STRIDE, Trial, comes_to_its_end, reach};
+use fmu_build::study::variation::vary;
 use fmu_build::study::{on_all_cores, with_each};
-use fmu_build::variation::vary;
 use uam::scenarios::find;
 
 /// What was not seen to its end was not followed, however short the way.
@@ -40,7 +40,7 @@ fn a_motion_that_does_not_come_to_its_end_is_not_followed() {
 #[test]
 fn the_arm_reaches_as_far_as_in_the_thesis() {
     let jobs = with_each(&MOTIONS);
-    let reaches: Vec<Reach> = on_all_cores(&jobs, &|&(motion, discretization)| {
+    let reaches: Vec<Reach> = on_all_cores(&jobs, |&(motion, discretization)| {
         let changes = [("joint[*].acceleration_limit", "20"), ("counterweight.time_constant", "0.4")];
         let scenario = vary(&find(motion.scenario).unwrap(), &changes).unwrap();
         let pair = common::pair_of(scenario.structure);

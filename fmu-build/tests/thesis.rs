@@ -6,12 +6,12 @@ mod common;
 
 use std::sync::LazyLock;
 
-use fmu_build::claims::{self, Quantity, peak};
-use fmu_build::coupling::Schedule;
-use fmu_build::record::Names;
+use fmu_build::host::coupling::Schedule;
+use fmu_build::host::record::Names;
 use fmu_build::report;
+use fmu_build::study::claims::{self, Quantity, peak};
+use fmu_build::study::variation::vary;
 use fmu_build::study::{self, Case, Summary};
-use fmu_build::variation::vary;
 use uam::autopilot::AutopilotMode;
 use uam::parameters::{BaseModel, PathAxes};
 use uam::scenarios::{Scenario, find, of_the_thesis};
@@ -129,7 +129,7 @@ fn ten_milliseconds_are_enough_without_touching_the_sample_time() {
     for scenario in study::pick_up().unwrap().iter().take(2) {
         let schedule = Schedule::new(0.0, scenario.duration, 0.01).unwrap();
         let names = Names::standard(scenario.structure);
-        let run = fmu_build::run::run(&common::pair(), scenario, &schedule, &names, &|| {}).unwrap();
+        let run = fmu_build::host::run::run(&common::pair(), scenario, &schedule, &names, &|| {}).unwrap();
         // The first interval is planned before the host's step is known.
         let errors = run.recording.tracking_error().unwrap();
         assert!(errors[1] <= 5e-8, "{}: {}", scenario.id, errors[1]);

@@ -5,8 +5,8 @@
 use std::path::Path;
 use std::{env, fs};
 
-use fmu_build::description::model_description;
-use fmu_build::units::Unit;
+use fmu_build::package::description::model_description;
+use fmu_build::package::units::Unit;
 use fmu_build::write_descriptions;
 use uam::Structure;
 

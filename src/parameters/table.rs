@@ -461,7 +461,7 @@ pub fn declare_controller<D: AsMut<Parameters>>(table: &mut Table<D>, structure:
             "reference.circle.duration",
             &unit::SECOND,
             Bounds::POSITIVE,
-            "How long one rotation takes, at rest before and after",
+            "How long one turn takes, at rest before and after",
             |d, _| &mut d.as_mut().reference.circle.duration,
         )
         .real(

@@ -3,8 +3,8 @@
 use std::process::Command;
 use std::time::Instant;
 
-use fmu_build::coupling::{Pair, Schedule};
-use fmu_build::fmu::{Instance, Selection};
+use fmu_build::host::coupling::{Pair, Schedule};
+use fmu_build::host::fmu::{Instance, Selection};
 use uam::parameters::{Discretization, Resolution};
 use uam::variables::options::Choice;
 

@@ -7,8 +7,8 @@
 use std::ffi::c_int;
 use std::time::Instant;
 
-use fmu_build::coupling::Pair;
-use fmu_build::fmu::{Instance, Selection, Value};
+use fmu_build::host::coupling::Pair;
+use fmu_build::host::fmu::{Instance, Selection, Value};
 use libloading::Library;
 use uam::control::{Inputs, Outputs, Problem, Response, Task};
 use uam::mechanics::dynamics::{Dynamics, Node, State};

@@ -8,7 +8,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Parser;
-use fmu_build::coupling::Pair;
+use fmu_build::host::coupling::Pair;
 use fmu_build::{BuildOptions, build};
 use uam::Structure;
 

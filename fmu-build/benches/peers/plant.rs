@@ -9,8 +9,8 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::time::Instant;
 
-use fmu_build::coupling::Pair;
-use fmu_build::fmu::{Instance, Selection, Value};
+use fmu_build::host::coupling::Pair;
+use fmu_build::host::fmu::{Instance, Selection, Value};
 use libloading::Library;
 use uam::parameters::Actuation;
 use uam::plant::{Inputs, Outputs};

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use anyhow::Result;
-use fmu_build::budget::{Curve, Errors, VARIANTS, Variant};
+use fmu_build::study::budget::{Curve, Errors, VARIANTS, Variant};
 use fmu_build::study::on_all_cores;
 use fmu_build::{files, report};
 use uam::scenarios::find;
@@ -26,7 +26,7 @@ pub fn execute(arguments: &PrintArguments, out: &Path) -> Result<()> {
     jobs.sort_by(|a, b| a.1.total_cmp(&b.1));
     let points = |(variant, step): &(Variant, f64)| Ok(variant.schedule(&scenario, *step)?.steps() as u64);
     let progress = Progress::new(jobs.iter().map(points).sum::<Result<u64>>()?, "Simulating")?;
-    let errors = on_all_cores(&jobs, &|(variant, step)| variant.run(pair, &scenario, *step, &|| progress.point()));
+    let errors = on_all_cores(&jobs, |(variant, step)| variant.run(pair, &scenario, *step, &|| progress.point()));
     progress.finish();
     let results = jobs.iter().zip(errors).map(|(&(variant, step), errors)| Ok((variant, step, errors?)));
     let results: Vec<(Variant, f64, Errors)> = results.collect::<Result<_>>()?;

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
+use fmu_build::compile::cross::{TARGETS, Target, Toolchain};
 use fmu_build::compile::target_libraries;
-use fmu_build::cross::{TARGETS, Target, Toolchain};
 use fmu_build::files::Written;
 use fmu_build::platform::Platform;
 use fmu_build::{BuildOptions, Design};

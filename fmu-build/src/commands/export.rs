@@ -4,9 +4,9 @@ use std::path::Path;
 
 use anyhow::{Result, ensure};
 use fmu_build::files;
-use fmu_build::interface::Variable;
-use fmu_build::settings::changes;
-use fmu_build::ssp::parameters;
+use fmu_build::host::settings::changes;
+use fmu_build::package::interface::Variable;
+use fmu_build::package::ssp::parameters;
 use uam::scenarios::{Extent, Scenario};
 use uam::units::controller::ControllerUnit;
 use uam::units::plant::PlantUnit;

@@ -4,10 +4,10 @@ use std::path::Path;
 
 use anyhow::Result;
 use fmu_build::BuildOptions;
-use fmu_build::coupling::Pair;
-use fmu_build::record::{Recording, write_csv};
+use fmu_build::host::coupling::Pair;
+use fmu_build::host::record::{Recording, write_csv};
+use fmu_build::host::run::Run;
 use fmu_build::report;
-use fmu_build::run::Run;
 use fmu_build::study::{self, Case, Summary};
 use uam::Structure;
 

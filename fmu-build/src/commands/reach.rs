@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use anyhow::Result;
-use fmu_build::reach::{FARTHEST, MOTIONS, Reach, STRIDE, Trial, enlarged, reach};
+use fmu_build::study::reach::{FARTHEST, MOTIONS, Reach, STRIDE, Trial, enlarged, reach};
+use fmu_build::study::variation::vary;
 use fmu_build::study::{on_all_cores, with_each};
-use fmu_build::variation::vary;
 use fmu_build::{files, report};
 use uam::scenarios::find;
 
@@ -26,7 +26,7 @@ pub fn execute(arguments: &ReachArguments, out: &Path) -> Result<()> {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "only for the progress bar")]
     let strides = (FARTHEST / STRIDE) as u64;
     let progress = Progress::new(strides * jobs.len() as u64, "Enlarging the motions")?;
-    let results = on_all_cores(&jobs, &|&(scenario, discretization)| {
+    let results = on_all_cores(&jobs, |&(scenario, discretization)| {
         let pair = pairs.of(scenario.structure)?;
         let mut tried = 0;
         let result = reach(|way| {

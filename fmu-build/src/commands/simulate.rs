@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use anyhow::{Result, anyhow};
-use fmu_build::coupling::Schedule;
-use fmu_build::record::{Names, write_csv};
-use fmu_build::run::run;
+use fmu_build::host::coupling::Schedule;
+use fmu_build::host::record::{Names, write_csv};
+use fmu_build::host::run::run;
 use fmu_build::{files, report};
 
 use super::{Pairs, Progress, speed};

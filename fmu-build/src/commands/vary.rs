@@ -1,9 +1,9 @@
 //! A simulation with some numbers changed.
 
 use anyhow::{Result, ensure};
-use fmu_build::claims::{self, Claim, DISCRETIZATIONS, Quantity, Row, Table};
+use fmu_build::study::claims::{self, Claim, DISCRETIZATIONS, Quantity, Row, Table};
+use fmu_build::study::variation::vary;
 use fmu_build::study::{self, Summary};
-use fmu_build::variation::vary;
 use uam::scenarios::{Scenario, find};
 use uam::variables::options::Choice;
 

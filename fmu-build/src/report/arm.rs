@@ -9,8 +9,8 @@ use uam::reference::ReferenceKind;
 use super::Series;
 use super::decimate::envelope;
 use super::pose::Pose;
-use crate::record::NotRecorded;
-use crate::run::Run;
+use crate::host::record::NotRecorded;
+use crate::host::run::Run;
 
 /// Half the width of the drawn UAV \[m\]; the model knows no size.
 const SPAN: f64 = 0.24;

@@ -8,9 +8,9 @@ use uam::scenarios::Scenario;
 use super::chart::{self, Across, Panel, Scale};
 use super::panels::panels;
 use super::{Error, Paint, page};
-use crate::budget::{Curve, EULER, EXACT, Errors, Pilot, STEPS, Variant, Watch, observed_order};
-use crate::coupling::Order;
-use crate::markdown;
+use crate::formats::markdown;
+use crate::host::coupling::Order;
+use crate::study::budget::{Curve, EULER, EXACT, Errors, Pilot, STEPS, Variant, Watch, observed_order};
 
 /// Errors that users may ask for \[m\].
 const WANTED: [f64; 4] = [1e-3, 1e-4, 1e-6, 1e-9];

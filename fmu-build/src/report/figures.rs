@@ -7,8 +7,8 @@ use uam::variables::options::Choice;
 
 use super::chart::{Curve, Panel, Scale, TIME};
 use super::{Error, Series, arm, panels};
-use crate::claims::Quantity;
-use crate::run::Run;
+use crate::host::run::Run;
+use crate::study::claims::Quantity;
 
 /// What a figure is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -5,9 +5,9 @@ use maud::html;
 use super::{Error, Figure, Report, Series, Topic, figures, style};
 use uam::scenarios::PICK_UP;
 
-use crate::claims::Quantity;
-use crate::record::NotRecorded;
-use crate::run::Run;
+use crate::host::record::NotRecorded;
+use crate::host::run::Run;
+use crate::study::claims::Quantity;
 use crate::study::{self, Case};
 
 /// How long the figure of the growing swings goes on after the arm has left its workspace \[s\].

@@ -4,7 +4,7 @@ use uam::mechanics::planar::{Rotation, Vec2, vec2};
 use uam::parameters::Balance;
 use uam::scenarios::Scenario;
 
-use crate::record::{NotRecorded, Recording};
+use crate::host::record::{NotRecorded, Recording};
 
 /// Points of the vehicle in the inertial frame \[m\].
 #[derive(Debug, Clone, PartialEq)]

@@ -7,10 +7,10 @@ use uam::variables::options::Choice;
 use super::chart::{Across, Curve, Panel, Scale};
 use super::panels::panels;
 use super::{Error, Figure, Report, Topic, style};
-use crate::claims::DISCRETIZATIONS;
-use crate::claims::{Cell, Row, Table};
-use crate::markdown;
-use crate::reach::{AGREEMENT, BALANCED, MOTIONS, Reach, comes_to_its_end};
+use crate::formats::markdown;
+use crate::study::claims::DISCRETIZATIONS;
+use crate::study::claims::{Cell, Row, Table};
+use crate::study::reach::{AGREEMENT, BALANCED, MOTIONS, Reach, comes_to_its_end};
 
 /// The reaches of all motions beside those of the thesis. `results`: for each scenario those with each
 /// discretization.
@@ -123,7 +123,7 @@ mod tests {
     use uam::scenarios::find;
 
     use super::*;
-    use crate::reach::Trial;
+    use crate::study::reach::Trial;
 
     fn reached(ways: [f64; 2], follows: f64) -> Reach {
         let trials = ways.map(|way| Trial { way, followed: way <= follows, moment: 0.0 }).into();

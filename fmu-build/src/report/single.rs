@@ -4,9 +4,9 @@ use maud::html;
 use uam::variables::options::Choice;
 
 use super::{Error, Report, Series, Topic, figures, style};
-use crate::claims::{self, Numbers, Quantity, Row, Table};
-use crate::coupling::Schedule;
-use crate::run::Run;
+use crate::host::coupling::Schedule;
+use crate::host::run::Run;
+use crate::study::claims::{self, Numbers, Quantity, Row, Table};
 
 /// Measured quantities and all figures of a run.
 ///

@@ -4,8 +4,8 @@ use std::env;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use fmu_build::compile::cross::Target;
 use fmu_build::compile::target_libraries;
-use fmu_build::cross::Target;
 
 /// The start of a command that runs a program for another machine; it may store what it needs in the folder it is told.
 pub type Emulator = Box<dyn Fn(&Path) -> Command>;

@@ -7,7 +7,7 @@ pub mod emulators;
 use std::path::Path;
 use std::sync::Mutex;
 
-use fmu_build::coupling::Pair;
+use fmu_build::host::coupling::Pair;
 use fmu_build::{BuildOptions, Built, build};
 use uam::Structure;
 

@@ -51,7 +51,7 @@ impl What<'_> {
         let rates = [*turning, controlled(altitude, *mass), controlled(roll, *inertia), swinging, sampled];
         let fastest = rates.into_iter().enumerate().max_by(|(_, a), (_, b)| a.total_cmp(b));
         match fastest.filter(|(_, rate)| *rate > SLOW) {
-            Some((0, _)) => format!("links and UAV rotation at {turning:.1e} rad/s"),
+            Some((0, _)) => format!("links and UAV turn at {turning:.1e} rad/s"),
             Some((1, _)) => gains("autopilot.altitude", altitude, "a mass of", *mass),
             Some((2, _)) => gains("autopilot.roll", roll, "uav.inertia =", *inertia),
             Some((3, _)) => {

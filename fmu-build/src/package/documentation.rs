@@ -3,9 +3,9 @@
 use maud::{Markup, html};
 use uam::fmi::Naming;
 
-use crate::html::document;
-use crate::units::Unit;
-use crate::{metadata, text};
+use crate::formats::html::document;
+use crate::package::units::Unit;
+use crate::package::{metadata, text};
 
 mod figure;
 mod markdown;

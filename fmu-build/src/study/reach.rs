@@ -10,8 +10,8 @@ use uam::reference::{Reference, ReferenceKind};
 use uam::scenarios::Scenario;
 use uam::variables::options::Choice;
 
-use crate::claims::Quantity;
-use crate::coupling::{Error, Pair};
+use crate::host::coupling::{Error, Pair};
+use crate::study::claims::Quantity;
 use crate::study::run_with;
 
 /// By how much the motion is enlarged until it cannot be followed \[m\].

@@ -4,9 +4,9 @@ use std::io;
 
 use super::{Component, common, shared_parameters};
 use crate::error::Result;
-use crate::interface::{Value, Variable, units_of};
-use crate::metadata;
-use crate::xml::{self, Ending, Xml, integer, number};
+use crate::formats::xml::{self, Ending, Xml, integer, number};
+use crate::package::interface::{Value, Variable, units_of};
+use crate::package::metadata;
 
 /// Path of the parameter set inside the SSP.
 pub const SOURCE: &str = "resources/uam.ssv";

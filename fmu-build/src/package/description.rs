@@ -8,9 +8,9 @@ use uam::variables::unit::PhysicalUnit;
 use uam::variables::{Causality, Variability};
 
 use crate::error::Result;
-use crate::interface::{Enumeration, Interface, Value, Variable};
-use crate::metadata;
-use crate::xml::{self, Ending, Xml, integer, number};
+use crate::formats::xml::{self, Ending, Xml, integer, number};
+use crate::package::interface::{Enumeration, Interface, Value, Variable};
+use crate::package::metadata;
 
 /// The model description of a unit.
 ///

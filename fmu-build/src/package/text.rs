@@ -49,7 +49,7 @@ mod tests {
     use pulldown_cmark::{Event, Parser};
 
     use super::*;
-    use crate::units::Unit;
+    use crate::package::units::Unit;
 
     /// Every name that users can find in the units of a structure.
     fn names(structure: Structure) -> HashSet<String> {

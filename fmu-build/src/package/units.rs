@@ -4,9 +4,9 @@ use uam::Structure;
 use uam::units::controller::ControllerUnit;
 use uam::units::plant::PlantUnit;
 
-use crate::design::Design;
-use crate::interface::Interface;
-use crate::text;
+use crate::package::design::Design;
+use crate::package::interface::Interface;
+use crate::package::text;
 
 /// A unit with its picture and its text for users.
 pub struct Unit {
@@ -38,8 +38,8 @@ impl Unit {
             text,
         };
         [
-            unit(controller, include_bytes!("../../modelDescription/uam_controller.png"), text::CONTROLLER),
-            unit(plant, include_bytes!("../../modelDescription/uam_plant.png"), text::PLANT),
+            unit(controller, include_bytes!("../../../modelDescription/uam_controller.png"), text::CONTROLLER),
+            unit(plant, include_bytes!("../../../modelDescription/uam_plant.png"), text::PLANT),
         ]
     }
 

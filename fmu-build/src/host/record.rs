@@ -6,7 +6,7 @@ use std::path::Path;
 use uam::Structure;
 
 use crate::files::{self, Written};
-use crate::fmu::{self, Causality, Description, Instance, Selection, Values};
+use crate::host::fmu::{self, Causality, Description, Instance, Selection, Values};
 
 /// Name of the column with the communication points.
 pub const TIME: &str = "time";

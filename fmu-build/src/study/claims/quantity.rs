@@ -7,7 +7,7 @@ use uam::variables::options::Choice;
 
 use super::LOST;
 use super::reading::{Reading, Shown};
-use crate::record::{NotRecorded, Recording};
+use crate::host::record::{NotRecorded, Recording};
 
 /// A number that sums up a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -7,9 +7,9 @@ use uam::scenarios::Scenario;
 
 use uam::coupling;
 
-use crate::coupling::{Coupling, Error, Pair, Schedule, configure};
-use crate::design;
-use crate::record::{Names, Recorder, Recording};
+use crate::host::coupling::{Coupling, Error, Pair, Schedule, configure};
+use crate::host::record::{Names, Recorder, Recording};
+use crate::package::design;
 
 /// What came out of a scenario.
 #[derive(Debug)]

@@ -1,7 +1,7 @@
 //! Statements of the thesis, with the interval of numbers that we call agreement (a check mark).
 
 use super::{Claim, Deviation, Quantity};
-use crate::variation::Changes;
+use crate::study::variation::Changes;
 
 const fn claim(scenario: &'static str, quantity: Quantity, thesis: &'static str, interval: [f64; 2]) -> Claim {
     Claim { scenario, quantity, compared_with: None, thesis, interval, deviation: None }

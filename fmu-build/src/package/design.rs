@@ -18,7 +18,7 @@ pub struct Design {
     pub parameters: Parameters,
     /// What importers propose to simulate.
     pub experiment: Experiment,
-    /// Whether the FMUs say which variables belong together, see [`crate::terminals`].
+    /// Whether the FMUs say which variables belong together, see [`crate::package::terminals`].
     pub terminals: bool,
 }
 

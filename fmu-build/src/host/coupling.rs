@@ -8,9 +8,9 @@ use uam::units::controller::ControllerUnit;
 use uam::units::plant::PlantUnit;
 use uam::{Parameters, Structure};
 
-use crate::fmu::{self, Causality, DataType, Fmu, Instance, Selection, Values};
-use crate::record::NotRecorded;
-use crate::settings;
+use crate::host::fmu::{self, Causality, DataType, Fmu, Instance, Selection, Values};
+use crate::host::record::NotRecorded;
+use crate::host::settings;
 
 /// One instance of each FMU, connected.
 pub type Coupling = coupling::Coupling<Instance, Instance>;

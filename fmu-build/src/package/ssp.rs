@@ -5,9 +5,9 @@
 
 use uam::variables::Causality;
 
-use crate::archive::Archive;
 use crate::error::Result;
-use crate::interface::{Interface, Value, Variable};
+use crate::package::archive::Archive;
+use crate::package::interface::{Interface, Value, Variable};
 
 mod common;
 pub mod parameters;

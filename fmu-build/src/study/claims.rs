@@ -11,7 +11,7 @@ pub use table::{Cell, Row, Section, Table};
 use thesis::{BASE_MOTION, PICK_UP, REACH, REDUNDANCY, TWO_LINKS};
 use uam::parameters::Discretization;
 
-use crate::variation::Changes;
+use crate::study::variation::Changes;
 
 /// The discretizations that are compared, in the order of the columns of tables.
 pub const DISCRETIZATIONS: [Discretization; 2] = [Discretization::Euler, Discretization::Exact];
@@ -43,7 +43,7 @@ pub struct Deviation {
     pub of: [bool; 2],
     /// Why, in a line.
     pub why: &'static str,
-    /// Changes of the scenario, as [`crate::variation::vary`] takes them, with which it does hold; none: no evidence.
+    /// Changes of the scenario, as [`crate::study::variation::vary`] takes them, with which it does hold; none: no evidence.
     pub holds_with: Changes<'static>,
 }
 
@@ -83,7 +83,7 @@ mod tests {
 
     use super::quantity::peak;
     use super::*;
-    use crate::record::{Names, Recording};
+    use crate::host::record::{Names, Recording};
 
     fn swinging() -> Recording {
         let names = ["base.x", "base.y", "end_effector.x", "end_effector.y", "reference.x", "reference.y"];

@@ -8,7 +8,7 @@
 use std::io;
 
 use crate::error::Result;
-use crate::xml::{self, Ending, Xml};
+use crate::formats::xml::{self, Ending, Xml};
 
 /// Folder of the file and the icon inside the FMU.
 pub const FOLDER: &str = "terminalsAndIcons";

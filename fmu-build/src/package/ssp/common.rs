@@ -4,7 +4,7 @@ use std::io;
 
 use uam::variables::unit::PhysicalUnit;
 
-use crate::xml::{self, Ending, Xml};
+use crate::formats::xml::{self, Ending, Xml};
 
 /// Name space of what all documents of the SSP standard share.
 pub const SSC: &str = "http://ssp-standard.org/SSP1/SystemStructureCommon";

@@ -5,11 +5,11 @@ use std::io;
 use uam::variables::Causality;
 
 use super::{Component, Connection, common, connections, parameters};
-use crate::design::Experiment;
 use crate::error::Result;
-use crate::interface::{Value, Variable, units_of};
-use crate::metadata;
-use crate::xml::{self, Ending, Xml, number};
+use crate::formats::xml::{self, Ending, Xml, number};
+use crate::package::design::Experiment;
+use crate::package::interface::{Value, Variable, units_of};
+use crate::package::metadata;
 
 /// Name space of OMSimulator's annotations.
 const OMS: &str = "https://raw.githubusercontent.com/OpenModelica/OMSimulator/master/schema/oms.xsd";

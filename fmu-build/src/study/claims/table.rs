@@ -5,7 +5,7 @@ use std::fmt;
 use comfy_table::ContentArrangement;
 
 use super::{Claim, Deviation, Quantity};
-use crate::markdown;
+use crate::formats::markdown;
 
 /// Characters per line.
 const WIDTH: u16 = 120;

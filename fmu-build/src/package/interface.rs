@@ -7,7 +7,7 @@ use uam::variables::unit::PhysicalUnit;
 use uam::variables::{self, Bounds, Causality, Kind, Variability};
 use uam::{Parameters, Structure};
 
-use crate::design::{Design, Experiment};
+use crate::package::design::{Design, Experiment};
 
 /// A unit of a given structure.
 #[derive(Debug, Clone)]

@@ -4,9 +4,9 @@ use uam::fmi::Model;
 use uam::variables::{Causality, Kind};
 use uam::{Parameters, Structure};
 
-use crate::design::Design;
-use crate::fmu::Value;
-use crate::interface::{Interface, Variable};
+use crate::host::fmu::Value;
+use crate::package::design::Design;
+use crate::package::interface::{Interface, Variable};
 
 /// Every parameter of the unit `M` with its value in `parameters`, in the order of the unit's table.
 #[must_use]

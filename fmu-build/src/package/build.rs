@@ -4,16 +4,16 @@ use std::path::{Path, PathBuf};
 
 use uam::Structure;
 
+use crate::compile::cross::Toolchain;
 use crate::compile::{Compiled, compile};
-use crate::cross::Toolchain;
-use crate::description::model_description;
-use crate::design::Design;
 use crate::error::Result;
 use crate::files::Written;
-use crate::package::fmu;
+use crate::package::contents::fmu;
+use crate::package::description::model_description;
+use crate::package::design::Design;
+use crate::package::ssp::{Component, ssp};
+use crate::package::units::Unit;
 use crate::platform::Platform;
-use crate::ssp::{Component, ssp};
-use crate::units::Unit;
 use crate::{files, workspace};
 
 const SSP_NAME: &str = "uam.ssp";

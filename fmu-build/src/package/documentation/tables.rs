@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 use uam::variables::{Causality, Variability};
 
-use crate::interface::{Enumeration, Interface, Value, Variable};
+use crate::package::interface::{Enumeration, Interface, Value, Variable};
 
 /// Headings of the tables of variables, in the order of the page.
 const GROUPS: [(Causality, &str); 4] = [

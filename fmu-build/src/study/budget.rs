@@ -4,11 +4,11 @@
 use uam::parameters::{Discretization, Hold};
 use uam::scenarios::Scenario;
 
-use crate::claims::peak;
-use crate::coupling::{Error, Order, Pair, Schedule, configure};
-use crate::fmu::Value;
-use crate::record::{Names, NotRecorded, Recording};
-use crate::run::run_prepared;
+use crate::host::coupling::{Error, Order, Pair, Schedule, configure};
+use crate::host::fmu::Value;
+use crate::host::record::{Names, NotRecorded, Recording};
+use crate::host::run::run_prepared;
+use crate::study::claims::peak;
 
 mod order;
 

@@ -1,0 +1,5 @@
+//! Texts for machines and people.
+
+pub mod html;
+pub mod markdown;
+pub mod xml;
