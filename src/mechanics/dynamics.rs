@@ -11,6 +11,7 @@ mod contact;
 mod driven;
 mod explicit;
 mod instant;
+mod integrated_state;
 mod law;
 mod loads;
 mod moment;

@@ -3,7 +3,8 @@
 
 use nalgebra::{SVector, Vector3};
 
-use super::law::{Flow, StepContext};
+use super::integrated_state::IntegratedState;
+use super::law::StepContext;
 use super::runge_kutta::Internal;
 use super::{Account, Dynamics, Impulse, Load, Loads, Motion, Node, Situation, State, in_inertial_frame};
 use crate::autopilot::AutopilotMode;
@@ -55,11 +56,11 @@ impl<const N: usize> Dynamics<N> {
         // A sample still sees the velocities before the jump of the rates.
         let mut until_sample = self.sample(&mut situation.state, loads.begin, t);
         let sample_time = if until_sample < f64::INFINITY { self.autopilot.sample_time } else { f64::INFINITY };
-        let mut flow = situation.flow(self.base);
+        let mut integrated = situation.integrated_state(self.base);
         let Situation { state, rotation, node } = situation;
         let (start, momentum) = (state.position, state.momentum);
         node.move_at(&motion.rate);
-        state.contact = self.touches(&flow, node, state.held);
+        state.contact = self.touches(&integrated, node, state.held);
         let mut context = StepContext {
             loads,
             elapsed: 0.0,
@@ -74,24 +75,24 @@ impl<const N: usize> Dynamics<N> {
         while context.elapsed < size {
             let left = size - context.elapsed;
             let step = account.next(self, node, loads);
-            (step.nodes[0], step.from) = (*node, flow);
-            self.law(&mut step.rates[0], &flow, node, loads.present(context.elapsed, &mut room), &context);
+            (step.nodes[0], step.from) = (*node, integrated);
+            self.law(&mut step.rates[0], &integrated, node, loads.present(context.elapsed, &mut room), &context);
             let longest = self.longest_internal_step(step, turning, context.contact);
             let most = MOST_STEPS * if sample_time < longest { sample_time } else { longest };
             if left > most {
-                let turning = turning + TUMBLING * step.rates[0][2].abs();
+                let turning = turning + TUMBLING * step.rates[0].pose.z.abs();
                 return Err(self.too_long(size, most, turning, context.contact));
             }
             // A sample at the end belongs to the step that begins there.
             let piece = if until_sample < left - SAME_INSTANT { until_sample } else { left };
             let length = if piece > longest { piece / (piece / longest).ceil() } else { piece };
             let mut covered = length;
-            self.internal_step(step, length, &context, (&mut flow, node));
+            self.internal_step(step, length, &context, (&mut integrated, node));
             // Right after switching, rounding must not switch back for ever.
-            let within = if stuck { None } else { self.switches_within(step, (&flow, node), &context) };
+            let within = if stuck { None } else { self.switches_within(step, (&integrated, node), &context) };
             if let Some(bracket) = within {
                 covered = self.switching_instant(step, bracket, &context);
-                self.internal_step(step, covered, &context, (&mut flow, node));
+                self.internal_step(step, covered, &context, (&mut integrated, node));
                 context.contact = !context.contact;
             }
             stuck = covered == 0.0;
@@ -104,22 +105,22 @@ impl<const N: usize> Dynamics<N> {
             context.motion = motion.after(context.elapsed);
             until_sample -= covered;
             if until_sample <= 0.0 && context.elapsed < size {
-                self.settle(state, &flow, node);
+                self.settle(state, &integrated, node);
                 until_sample = self.sample(state, loads.present(context.elapsed, &mut room), t + context.elapsed);
                 context.sampled = state.sampled;
-                (flow[6], flow[7]) = (state.integrals.x, state.integrals.y);
+                integrated.integrals = state.integrals;
             }
         }
         state.contact = context.contact;
         state.position = start + motion.way(size);
         if refreshed(t) != refreshed(t + size) {
             node.take(&self.vehicle, &state.position, state.held, &motion.rate_after(size));
-            [flow[8], flow[9]] = Rotation::by(flow[2]).cos_sin();
+            integrated.set_rotation(Rotation::by(integrated.pose.z));
         }
-        *rotation = self.arm_rotation(&flow);
-        self.settle(state, &flow, node);
+        *rotation = self.arm_rotation(&integrated);
+        self.settle(state, &integrated, node);
         state.rate = motion.rate_after(size);
-        let impulse = self.impulse(state, &momentum, &flow, node, loads, size);
+        let impulse = self.impulse(state, &momentum, &integrated, node, loads, size);
         if let Account::Carried(carried) = account
             && self.neglects_nothing()
         {
@@ -137,16 +138,17 @@ impl<const N: usize> Dynamics<N> {
         &self,
         state: &mut State<N>,
         before: &Vector3<f64>,
-        flow: &Flow,
+        integrated: &IntegratedState,
         node: &Node<N>,
         loads: &Loads,
         size: f64,
     ) -> Impulse {
-        let mut impulse = Impulse { thrust: Vec2::zeros(), torque: flow[10], support: flow[11] };
+        let mut impulse =
+            Impulse { thrust: Vec2::zeros(), torque: integrated.torque_impulse, support: integrated.support_impulse };
         if self.on_carriage() {
-            let h = node.matrix.of_base(self.base_velocity(flow, Rotation::NONE, node)) + node.arm;
-            impulse.thrust = vec2(0.0, h.linear.y - flow[4]);
-            impulse.torque = h.angular - flow[5];
+            let h = node.matrix.of_base(self.base_velocity(integrated, Rotation::NONE, node)) + node.arm;
+            impulse.thrust = vec2(0.0, h.linear.y - integrated.momentum.y);
+            impulse.torque = h.angular - integrated.momentum.z;
             (state.momentum.y, state.momentum.z) = (h.linear.y, h.angular);
         } else {
             // What the momentum has gained, and no other force gave.
@@ -159,12 +161,12 @@ impl<const N: usize> Dynamics<N> {
     }
 
     /// Writes pose, momentum, integrals and velocities into `state`.
-    pub(super) fn settle(&self, state: &mut State<N>, flow: &Flow, node: &Node<N>) {
-        let rotation = self.arm_rotation(flow);
-        state.pose = Vector3::new(flow[0], flow[1], flow[2]);
-        state.momentum = Vector3::new(flow[3], flow[4], flow[5]);
-        state.integrals = vec2(flow[6], flow[7]);
-        state.velocity = in_inertial_frame(rotation, self.base_velocity(flow, rotation, node));
+    pub(super) fn settle(&self, state: &mut State<N>, integrated: &IntegratedState, node: &Node<N>) {
+        let rotation = self.arm_rotation(integrated);
+        state.pose = integrated.pose;
+        state.momentum = integrated.momentum;
+        state.integrals = integrated.integrals;
+        state.velocity = in_inertial_frame(rotation, self.base_velocity(integrated, rotation, node));
         state.rate = node.rate;
     }
 
@@ -211,7 +213,7 @@ impl<const N: usize> Dynamics<N> {
     /// The longest internal step that resolves autopilot, support and the `turning` of the links.
     #[inline]
     fn longest_internal_step(&self, step: &Internal<N>, turning: f64, contact: bool) -> f64 {
-        let turning = turning + TUMBLING * step.rates[0][2].abs();
+        let turning = turning + TUMBLING * step.rates[0].pose.z.abs();
         let fastest = if turning > self.control_rate { turning } else { self.control_rate };
         let longest = LONGEST_INTERNAL_STEP.min(RESOLUTION / fastest);
         if contact { self.longest_on_support(step, longest) } else { longest }
@@ -220,14 +222,14 @@ impl<const N: usize> Dynamics<N> {
     /// The longest internal step, at most `longest`, that resolves how the system swings on the support.
     #[inline(never)]
     fn longest_on_support(&self, step: &Internal<N>, longest: f64) -> f64 {
-        let (vehicle, Internal { nodes: [node, _], from: flow, rates: [k_1, ..], .. }) = (&self.vehicle, step);
+        let (vehicle, Internal { nodes: [node, _], from: integrated, rates: [k_1, ..], .. }) = (&self.vehicle, step);
         let inverse_mass = vehicle.masses(true).inverse_mass;
         // The support feels the mass of the system and, at a lever, its inertia.
         let lever = node.posture.payload.x;
         let mobility = inverse_mass + lever * lever / vehicle.uav_inertia;
         let swinging = (self.support.stiffness * mobility).sqrt();
-        let gap_rate = self.gap_rate(self.arm_rotation(flow), node, &k_1.fixed_rows::<3>(0).into());
-        let speed = gap_rate.abs() + k_1[4].abs() * inverse_mass / swinging;
+        let gap_rate = self.gap_rate(self.arm_rotation(integrated), node, &k_1.pose);
+        let speed = gap_rate.abs() + k_1.momentum.y.abs() * inverse_mass / swinging;
         // Mostly the step is short enough: that is seen without the roots below, which take a tenth of a step.
         let resolved = longest * swinging;
         let square = resolved * resolved;

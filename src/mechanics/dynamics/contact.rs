@@ -4,7 +4,8 @@
 //! contact switches, so a step is cut there, at an instant found by iterating on the step's length.
 
 use super::advance::RESOLUTION;
-use super::law::{Flow, Node, StepContext};
+use super::integrated_state::IntegratedState;
+use super::law::{Node, StepContext};
 use super::runge_kutta::Internal;
 use super::{Dynamics, in_inertial_frame};
 
@@ -16,26 +17,26 @@ const ITERATIONS: usize = 60;
 
 impl<const N: usize> Dynamics<N> {
     /// Whether the support pushes on the held payload right after the present instant.
-    pub(super) fn touches(&self, flow: &Flow, node: &Node<N>, held: bool) -> bool {
+    pub(super) fn touches(&self, integrated: &IntegratedState, node: &Node<N>, held: bool) -> bool {
         if !held || self.support.stiffness == 0.0 {
             return false;
         }
-        let rotation = self.arm_rotation(flow);
-        let gap = self.gap(flow, rotation, node);
+        let rotation = self.arm_rotation(integrated);
+        let gap = self.gap(integrated, rotation, node);
         if gap.abs() > NO_GAP {
             return gap < 0.0;
         }
-        let velocity = in_inertial_frame(rotation, self.base_velocity(flow, rotation, node));
+        let velocity = in_inertial_frame(rotation, self.base_velocity(integrated, rotation, node));
         self.gap_rate(rotation, node, &velocity) < 0.0
     }
 
     /// Length of an internal step within which contact switches, or `None` if it lasts, or stays away, all through
-    /// `whole`, the step that ends with the flow `to` and the arm at `end`.
+    /// `whole`, the step that ends with the integrated state `to` and the arm at `end`.
     #[inline]
     pub(super) fn switches_within(
         &self,
         whole: &Internal<N>,
-        (to, end): (&Flow, &Node<N>),
+        (to, end): (&IntegratedState, &Node<N>),
         context: &StepContext<'_, N>,
     ) -> Option<f64> {
         if !context.held || self.support.stiffness == 0.0 {
@@ -60,25 +61,25 @@ impl<const N: usize> Dynamics<N> {
     fn dips_within(
         &self,
         whole: &Internal<N>,
-        (to, end): (&Flow, &Node<N>),
+        (to, end): (&IntegratedState, &Node<N>),
         [start, margin]: [f64; 2],
         context: &StepContext<'_, N>,
     ) -> Option<f64> {
         let Internal { nodes: [begin, _], from, rates: [k_1, .., k_4], size, .. } = whole;
-        let rate = |flow: &Flow, k: &Flow, node: &Node<N>| {
-            context.side() * self.gap_rate(self.arm_rotation(flow), node, &k.fixed_rows::<3>(0).into())
+        let rate = |integrated: &IntegratedState, k: &IntegratedState, node: &Node<N>| {
+            context.side() * self.gap_rate(self.arm_rotation(integrated), node, &k.pose)
         };
         let dip = lowest([start.max(0.0), margin], [rate(from, k_1, begin), rate(to, k_4, end)], *size)?;
         (self.margin_after(dip, whole, context) < -NO_GAP).then_some(dip)
     }
 
     /// More than the margin can dip below its smaller end in an internal step of length `size` with these `rates` of the
-    /// flow \[m\]. Away from the support it spares the velocities of the payload, a twentieth of the whole step.
+    /// integrated state \[m\]. Away from the support it spares the velocities of the payload, a twentieth of the whole step.
     #[inline]
-    fn deepest_dip(&self, [k_1, .., k_4]: &[Flow; 4], size: f64) -> f64 {
+    fn deepest_dip(&self, [k_1, .., k_4]: &[IntegratedState; 4], size: f64) -> f64 {
         // An internal step is so short that the links, and the UAV as at its beginning, turn no farther than this.
-        let turning = 2.0 * RESOLUTION + k_4[2].abs() * size;
-        let way = (k_1[1].abs() + k_4[1].abs()) * size + turning * self.vehicle.payload_reach;
+        let turning = 2.0 * RESOLUTION + k_4.pose.z.abs() * size;
+        let way = (k_1.pose.y.abs() + k_4.pose.y.abs()) * size + turning * self.vehicle.payload_reach;
         // A cubic dips by 4/27 of its slopes at both ends.
         0.15 * way
     }
@@ -95,14 +96,14 @@ impl<const N: usize> Dynamics<N> {
     #[inline(never)]
     fn margin_after(&self, length: f64, step: &Internal<N>, context: &StepContext<'_, N>) -> f64 {
         let mut step = *step;
-        let (mut to, mut end) = (Flow::zeros(), step.nodes[0]);
+        let (mut to, mut end) = (IntegratedState::ZERO, step.nodes[0]);
         self.internal_step(&mut step, length, context, (&mut to, &mut end));
         self.margin(&to, &end, context)
     }
 
     /// Distance \[m\] from switching: positive while the present state of contact lasts.
-    pub(super) fn margin(&self, flow: &Flow, node: &Node<N>, context: &StepContext<'_, N>) -> f64 {
-        context.side() * self.gap(flow, self.arm_rotation(flow), node)
+    pub(super) fn margin(&self, integrated: &IntegratedState, node: &Node<N>, context: &StepContext<'_, N>) -> f64 {
+        context.side() * self.gap(integrated, self.arm_rotation(integrated), node)
     }
 }
 
@@ -193,16 +194,16 @@ mod tests {
     fn check(dynamics: &Dynamics<3>, start: &Situation<3>, load: &Load) {
         let loads = Loads { begin: load, slope: None };
         let context = StepContext { loads: &loads, ..Dynamics::context(&start.state) };
-        let (node, from) = (&start.node, &start.flow(BaseModel::Full));
+        let (node, from) = (&start.node, &start.integrated_state(BaseModel::Full));
         let mut step = Internal::none(node);
         step.from = *from;
         dynamics.law(&mut step.rates[0], from, node, load, &context);
-        let turning = dynamics.turning(&node.rate) + TUMBLING * step.rates[0][2].abs();
+        let turning = dynamics.turning(&node.rate) + TUMBLING * step.rates[0].pose.z.abs();
         let size = RESOLUTION / turning.max(10.0);
         let (mut to, mut end) = (*from, *node);
         dynamics.internal_step(&mut step, size, &context, (&mut to, &mut end));
-        let slope = |flow: &Flow, k: &Flow, node: &Node<3>| {
-            dynamics.gap_rate(dynamics.arm_rotation(flow), node, &k.fixed_rows::<3>(0).into()).abs() * size
+        let slope = |integrated: &IntegratedState, k: &IntegratedState, node: &Node<3>| {
+            dynamics.gap_rate(dynamics.arm_rotation(integrated), node, &k.pose).abs() * size
         };
         let dip = 4.0 / 27.0 * (slope(from, &step.rates[0], node) + slope(&to, &step.rates[3], &end));
         let deepest = dynamics.deepest_dip(&step.rates, size);

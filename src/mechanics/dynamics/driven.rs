@@ -16,7 +16,7 @@ mod elimination;
 
 use nalgebra::{SMatrix, SVector};
 
-use super::law::Flow;
+use super::integrated_state::IntegratedState;
 use super::{Dynamics, Load, Node, Situation};
 use crate::bytes::{Memory, Tape};
 use crate::error::{Error, Result};
@@ -185,14 +185,14 @@ impl<const N: usize> Dynamics<N> {
     ) -> SVector<f64, N> {
         let Situation { state, node, .. } = situation;
         let (vehicle, posture, roll_rate) = (&self.vehicle, &node.posture, state.velocity.z);
-        let (flow, context) = (situation.flow(self.base), Self::context(&situation.state));
-        let mut rate = Flow::zeros();
-        self.law_at(&mut rate, &flow, node, situation.base(), load, &context);
+        let (integrated, context) = (situation.integrated_state(self.base), Self::context(&situation.state));
+        let mut rate = IntegratedState::ZERO;
+        self.law_at(&mut rate, &integrated, node, situation.base(), load, &context);
         let base = self.base_acceleration(situation, self.loads_at_end(situation, &rate), imposed);
 
         let drift = outboard_drift(vehicle, posture, state.held, situation.base(), &node.rate);
         let kept = inertial_moments(vehicle, posture, state.held, roll_rate, &node.rate, imposed);
-        let loads = self.outboard_load(node, &self.carrier(&flow, &rate), state.held, load) + torques.after(size);
+        let loads = self.outboard_load(node, &self.carrier(&integrated, &rate), state.held, load) + torques.after(size);
         imposed + self.driven_part(node, driven, &(loads - drift - kept), base)
     }
 }

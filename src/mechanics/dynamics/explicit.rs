@@ -1,14 +1,14 @@
 //! One explicit step from beginning to end, as the thesis makes it (appendix A.1): momentum by Euler's method,
 //! velocities by the matrices of the beginning.
 
-use nalgebra::{SVector, Vector3};
+use nalgebra::SVector;
 
 use super::advance::refreshed;
-use super::law::Flow;
+use super::integrated_state::IntegratedState;
 use super::{Dynamics, Loads, Situation, State, in_inertial_frame};
 use crate::mechanics::kinematics::Displacement;
 use crate::mechanics::momentum::Twist;
-use crate::mechanics::planar::{Rotation, vec2};
+use crate::mechanics::planar::Rotation;
 
 impl<const N: usize> Dynamics<N> {
     /// Makes `state` the state `here`, but with the momentum and the integrals after a step of length `size` from
@@ -20,14 +20,14 @@ impl<const N: usize> Dynamics<N> {
         let (load, node) = (&Loads::CALM.begin, &here.node);
         *state = here.state;
         self.sample(state, load, t);
-        let flow = here.flow(self.base);
-        state.contact = self.touches(&flow, node, state.held);
+        let integrated = here.integrated_state(self.base);
+        state.contact = self.touches(&integrated, node, state.held);
         let context = Self::context(state);
-        let mut rate = Flow::zeros();
-        self.written(&mut rate, &flow, node, here.base(), load, &context);
-        state.momentum += Vector3::new(rate[3], rate[4], rate[5]) * size;
-        state.integrals += vec2(rate[6], rate[7]) * size;
-        self.carried_load(node, &self.carrier(&flow, &rate), load) * size
+        let mut rate = IntegratedState::ZERO;
+        self.written(&mut rate, &integrated, node, here.base(), load, &context);
+        state.momentum += rate.momentum * size;
+        state.integrals += rate.integrals * size;
+        self.carried_load(node, &self.carrier(&integrated, &rate), load) * size
     }
 
     /// Brings `end`, whose state has begun the step in `here`, to its end: after the time `size` \[s\] from time `t` at

@@ -2,7 +2,8 @@
 
 use nalgebra::{SVector, Vector3};
 
-use super::law::{Flow, StepContext};
+use super::integrated_state::IntegratedState;
+use super::law::StepContext;
 use super::{Dynamics, Load, Loads, Motion, Situation, State, in_inertial_frame};
 use crate::mechanics::momentum::{Twist, inertial_load};
 use crate::mechanics::planar::{Vec2, vec2};
@@ -35,21 +36,25 @@ impl<const N: usize> Dynamics<N> {
     #[must_use]
     pub fn at_end(&self, situation: &Situation<N>, slope: &SVector<f64, N>, load: &Load) -> Instant {
         let state = &situation.state;
-        let flow = situation.flow(self.base);
+        let integrated = situation.integrated_state(self.base);
         let context = Self::context(state);
-        let mut rate = Flow::zeros();
-        self.law_at(&mut rate, &flow, &situation.node, situation.base(), load, &context);
-        let (control, _) = self.control(&flow, &state.velocity, load, &context);
+        let mut rate = IntegratedState::ZERO;
+        self.law_at(&mut rate, &integrated, &situation.node, situation.base(), load, &context);
+        let (control, _) = self.control(&integrated, &state.velocity, load, &context);
         let base = self.base_acceleration(situation, self.loads_at_end(situation, &rate), slope);
         let acceleration = in_inertial_frame(situation.rotation, base);
-        Instant { acceleration, control: vec2(control.x, rate[10]), support: rate[11] }
+        Instant { acceleration, control: vec2(control.x, rate.torque_impulse), support: rate.support_impulse }
     }
 
     /// Force on the whole system and moment about the UAV's centre of mass in `situation`, where `rate` is the rate of
-    /// the flow; axes of the arm's frame.
-    pub(super) fn loads_at_end(&self, Situation { state, rotation, node }: &Situation<N>, rate: &Flow) -> Twist {
+    /// the integrated state; axes of the arm's frame.
+    pub(super) fn loads_at_end(
+        &self,
+        Situation { state, rotation, node }: &Situation<N>,
+        rate: &IntegratedState,
+    ) -> Twist {
         let transport = self.base.transport(state.velocity.xy(), state.momentum.xy(), node.arm);
-        Twist { linear: rotation.undo(vec2(rate[3], rate[4])), angular: rate[5] + transport }
+        Twist { linear: rotation.undo(rate.momentum.xy()), angular: rate.momentum.z + transport }
     }
 
     /// Acceleration of the base under these `loads`, while the coordinates accelerate by `slope`; axes of the arm's frame.

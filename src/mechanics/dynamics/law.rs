@@ -1,10 +1,9 @@
 //! The right-hand side: rates of pose, momentum and autopilot integrals.
 
-use std::ops::Range;
-
 use nalgebra::{SVector, Vector3};
 
-use super::{Dynamics, Load, Loads, Motion, Situation, State, in_inertial_frame};
+use super::integrated_state::IntegratedState;
+use super::{Dynamics, Load, Loads, Motion, in_inertial_frame};
 use crate::autopilot::AutopilotMode;
 use crate::mechanics::kinematics::{Displacement, Posture};
 use crate::mechanics::momentum::{MomentumMatrix, Twist};
@@ -12,30 +11,6 @@ use crate::mechanics::planar::{Rotation, Vec2, cross, perp, vec2};
 use crate::mechanics::vehicle::Vehicle;
 use crate::memory;
 use crate::parameters::BaseModel;
-
-/// x, y, roll; p_x, p_y, K; integrals of altitude and roll error; cosine and sine of the roll; impulses of the
-/// rotors' torque and of the support force.
-///
-/// That the turn is integrated with the rest, and made good after every step ([`turned`]), spares the stages
-/// a third of their time. On an ideal carriage p_y and K are no states: they follow from the rates. There these
-/// entries collect the impulses of all but the carriage, so that p_y and K less the entries is what the
-/// carriage gave.
-pub(super) type Flow = SVector<f64, 12>;
-
-/// The entries on which its rates depend: all but x and the impulses.
-pub(super) const SEEN: Range<usize> = 1..10;
-
-/// The turn of the UAV.
-#[inline]
-fn uav_rotation(y: &Flow) -> Rotation {
-    Rotation::with(y[8], y[9])
-}
-
-/// Makes the turn in `flow` agree with the roll, given that it did in the flow `before`.
-#[inline]
-pub(super) fn turned(flow: &mut Flow, before: &Flow) {
-    [flow[8], flow[9]] = uav_rotation(before).then(Rotation::from_small_angle(flow[2] - before[2])).cos_sin();
-}
 
 /// The arm at one instant, in the UAV frame.
 #[derive(Debug, Clone, Copy)]
@@ -141,8 +116,8 @@ impl<const N: usize> StepContext<'_, N> {
 impl<const N: usize> Dynamics<N> {
     /// The turn of the arm's frame.
     #[inline]
-    pub(super) fn arm_rotation(&self, y: &Flow) -> Rotation {
-        if self.base.turns_arm() { uav_rotation(y) } else { Rotation::NONE }
+    pub(super) fn arm_rotation(&self, y: &IntegratedState) -> Rotation {
+        if self.base.turns_arm() { y.uav_rotation() } else { Rotation::NONE }
     }
 
     /// Motion of the base with the momentum `h`, of which `arm` is the arm's; axes of the UAV frame.
@@ -154,8 +129,8 @@ impl<const N: usize> Dynamics<N> {
 
     /// Motion of the base in the axes of the UAV frame: what momentum the arm leaves, divided by inertia.
     #[inline]
-    pub(super) fn base_velocity(&self, y: &Flow, rotation: Rotation, node: &Node<N>) -> Twist {
-        let h = Twist { linear: rotation.undo(vec2(y[3], y[4])), angular: y[5] };
+    pub(super) fn base_velocity(&self, y: &IntegratedState, rotation: Rotation, node: &Node<N>) -> Twist {
+        let h = Twist { linear: rotation.undo(y.momentum.xy()), angular: y.momentum.z };
         self.base_motion(node, h, node.arm)
     }
 
@@ -177,14 +152,14 @@ impl<const N: usize> Dynamics<N> {
     #[inline]
     pub(super) fn control(
         &self,
-        y: &Flow,
+        y: &IntegratedState,
         velocity: &Vector3<f64>,
         load: &Load,
         context: &StepContext<'_, N>,
     ) -> (Vec2, Vec2) {
         if self.continuous {
-            let error = load.error(y[1], y[2]);
-            return (self.hover_law(error, velocity, vec2(y[6], y[7]), load), error);
+            let error = load.error(y.pose.y, y.pose.z);
+            return (self.hover_law(error, velocity, y.integrals, load), error);
         }
         let control = match self.autopilot.mode {
             _ if self.on_carriage() => Vec2::zeros(),
@@ -195,12 +170,19 @@ impl<const N: usize> Dynamics<N> {
         (control, Vec2::zeros())
     }
 
-    /// Rates of the flow, written to `k`.
+    /// Rates of the integrated state, written to `k`.
     #[inline(never)]
-    pub(super) fn law(&self, k: &mut Flow, y: &Flow, node: &Node<N>, load: &Load, context: &StepContext<'_, N>) {
+    pub(super) fn law(
+        &self,
+        k: &mut IntegratedState,
+        y: &IntegratedState,
+        node: &Node<N>,
+        load: &Load,
+        context: &StepContext<'_, N>,
+    ) {
         // The compiler writes it twice: with a model that it knows, it takes a fifth less instructions.
         if self.base == BaseModel::Full {
-            self.written(k, y, node, self.base_velocity(y, uav_rotation(y), node), load, context);
+            self.written(k, y, node, self.base_velocity(y, y.uav_rotation(), node), load, context);
         } else {
             self.reduced_law(k, y, node, load, context);
         }
@@ -209,8 +191,15 @@ impl<const N: usize> Dynamics<N> {
     /// The same for a base that is not [`BaseModel::Full`]. Out of the way: without any other call, the full model
     /// needs no registers saved.
     #[inline(never)]
-    fn reduced_law(&self, k: &mut Flow, y: &Flow, node: &Node<N>, load: &Load, context: &StepContext<'_, N>) {
-        let h = Twist { linear: vec2(y[3], y[4]), angular: y[5] };
+    fn reduced_law(
+        &self,
+        k: &mut IntegratedState,
+        y: &IntegratedState,
+        node: &Node<N>,
+        load: &Load,
+        context: &StepContext<'_, N>,
+    ) {
+        let h = Twist { linear: y.momentum.xy(), angular: y.momentum.z };
         let v = self.base.reduced_velocity(node.matrix.mass, self.vehicle.uav_inertia, h, h - node.arm);
         self.law_at(k, y, node, v, load, context);
     }
@@ -219,8 +208,8 @@ impl<const N: usize> Dynamics<N> {
     #[inline(never)]
     pub(super) fn law_at(
         &self,
-        k: &mut Flow,
-        y: &Flow,
+        k: &mut IntegratedState,
+        y: &IntegratedState,
         node: &Node<N>,
         v: Twist,
         load: &Load,
@@ -232,8 +221,8 @@ impl<const N: usize> Dynamics<N> {
     #[inline(always)]
     pub(super) fn written(
         &self,
-        k: &mut Flow,
-        y: &Flow,
+        k: &mut IntegratedState,
+        y: &IntegratedState,
         node: &Node<N>,
         v: Twist,
         load: &Load,
@@ -249,22 +238,29 @@ impl<const N: usize> Dynamics<N> {
         if self.base.thrust_carries_all() {
             control.x = -others.y;
         }
-        let force = uav_rotation(y).up() * control.x + others;
+        let force = y.uav_rotation().up() * control.x + others;
         let moment = control.y + load.base_torque + self.carried_moment(rotation, node, load, support);
-        let angular = moment - self.base.transport(velocity.xy(), vec2(y[3], y[4]), node.arm);
+        let angular = moment - self.base.transport(velocity.xy(), y.momentum.xy(), node.arm);
 
-        let turning = vec2(-y[9], y[8]) * velocity.z;
-        *k = Flow::from([
-            velocity.x, velocity.y, velocity.z, force.x, force.y, angular, error.x, error.y, turning.x, turning.y,
-            control.y, support,
-        ]);
+        *k = IntegratedState {
+            pose: velocity,
+            momentum: Vector3::new(force.x, force.y, angular),
+            integrals: error,
+            rotation: perp(y.rotation) * velocity.z,
+            torque_impulse: control.y,
+            support_impulse: support,
+        };
     }
 
-    /// The UAV with the flow `y` and its rates `k`, as [`Dynamics::law`] gives them.
+    /// The UAV with the integrated state `y` and its rates `k`, as [`Dynamics::law`] gives them.
     #[inline]
-    pub(super) fn carrier(&self, y: &Flow, k: &Flow) -> Carrier {
+    pub(super) fn carrier(&self, y: &IntegratedState, k: &IntegratedState) -> Carrier {
         let rotation = self.arm_rotation(y);
-        Carrier { rotation, motion: Twist { linear: rotation.undo(vec2(k[0], k[1])), angular: k[2] }, support: k[11] }
+        Carrier {
+            rotation,
+            motion: Twist { linear: rotation.undo(k.pose.xy()), angular: k.pose.z },
+            support: k.support_impulse,
+        }
     }
 
     /// Moment of weight and outer loads on what the UAV carries, about the UAV's centre of mass \[N m\].
@@ -284,7 +280,7 @@ impl<const N: usize> Dynamics<N> {
     #[inline]
     pub(super) fn support_force(
         &self,
-        y: &Flow,
+        y: &IntegratedState,
         rotation: Rotation,
         node: &Node<N>,
         context: &StepContext<'_, N>,
@@ -293,8 +289,8 @@ impl<const N: usize> Dynamics<N> {
     }
 
     /// Height of the payload above the unloaded support \[m\].
-    pub(super) fn gap(&self, y: &Flow, rotation: Rotation, node: &Node<N>) -> f64 {
-        y[1] + rotation.apply(node.posture.payload).y - self.support.height
+    pub(super) fn gap(&self, y: &IntegratedState, rotation: Rotation, node: &Node<N>) -> f64 {
+        y.pose.y + rotation.apply(node.posture.payload).y - self.support.height
     }
 
     /// How fast the payload leaves the support while the UAV moves with `velocity`, inertial frame \[m/s\].
@@ -308,14 +304,5 @@ impl<const N: usize> Dynamics<N> {
     #[must_use]
     pub fn velocity_at(&self, node: &Node<N>, rotation: Rotation, place: Vec2, v: Twist) -> Vec2 {
         rotation.apply(node.velocity_at(&self.vehicle, place, self.base.carried(v)))
-    }
-}
-
-impl<const N: usize> Situation<N> {
-    /// The part of the state that the laws of motion integrate, no impulses so far.
-    pub(super) fn flow(&self, base: BaseModel) -> Flow {
-        let State { pose, momentum: h, integrals, .. } = &self.state;
-        let [cos, sin] = if base.turns_arm() { self.rotation } else { Rotation::by(pose.z) }.cos_sin();
-        Flow::from([pose.x, pose.y, pose.z, h.x, h.y, h.z, integrals.x, integrals.y, cos, sin, 0.0, 0.0])
     }
 }

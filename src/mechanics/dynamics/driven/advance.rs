@@ -1,6 +1,6 @@
 //! A step of any length where joints are driven, as `dynamics::advance` makes it where all rates are imposed.
 
-use super::butcher::Phase;
+use super::butcher::DrivenState;
 use super::{Driven, Torques};
 use crate::error::Result;
 use crate::mechanics::dynamics::advance::{MOST_STEPS, SAME_INSTANT, TUMBLING};
@@ -36,13 +36,13 @@ impl<const N: usize> Dynamics<N> {
     ) -> Result<Impulse> {
         let mut until_sample = self.sample(&mut situation.state, loads.begin, t);
         let sample_time = if until_sample.is_finite() { self.autopilot.sample_time } else { f64::INFINITY };
-        let mut phase = Phase::new(situation.flow(self.base));
+        let mut driven_state = DrivenState::new(situation.integrated_state(self.base));
         let Situation { state, rotation, node } = situation;
         let (start, before) = (state.position, state.momentum);
         // Momenta stay where imposed rates and masses jump: the rates of the driven joints jump along.
         node.move_at(&motion.rate);
-        self.move_driven(node, driven, self.momentum_in_uav(&phase.flow), &driven.momentum);
-        state.contact = self.touches(&phase.flow, node, state.held);
+        self.move_driven(node, driven, self.momentum_in_uav(&driven_state.integrated), &driven.momentum);
+        state.contact = self.touches(&driven_state.integrated, node, state.held);
         let mut elapsed = 0.0;
         let mut stuck = false;
         let mut room = None;
@@ -56,20 +56,23 @@ impl<const N: usize> Dynamics<N> {
                 sampled: state.sampled,
                 motion: motion.after(elapsed),
             };
-            let longest = self.longest_driven_step(&phase, node, driven, state.contact);
+            let longest = self.longest_driven_step(&driven_state, node, driven, state.contact);
             let most = MOST_STEPS * longest.min(sample_time);
             if left > most {
                 return Err(self.too_long(size, most, self.turning(&node.rate), state.contact));
             }
             let piece = if until_sample < left - SAME_INSTANT { until_sample } else { left };
             let length = if piece > longest { piece / (piece / longest).ceil() } else { piece };
-            let after = |length: f64| self.driven_step(&phase, node, length, &context, (driven, torques));
-            let margin = |(phase, node): &(Phase<N>, Node<N>)| self.margin(&phase.flow, node, &context);
+            let after = |length: f64| self.driven_step(&driven_state, node, length, &context, (driven, torques));
+            let margin = |(driven_state, node): &(DrivenState<N>, Node<N>)| {
+                self.margin(&driven_state.integrated, node, &context)
+            };
             let mut covered = length;
             let mut step = after(length);
-            let within = if stuck { None } else { self.switches(&(phase, *node), &step, length, &context, &after) };
+            let within =
+                if stuck { None } else { self.switches(&(driven_state, *node), &step, length, &context, &after) };
             if let Some(bracket) = within {
-                let begin = self.margin(&phase.flow, node, &context);
+                let begin = self.margin(&driven_state.integrated, node, &context);
                 covered = switching_instant(begin, bracket, &|length| margin(&after(length)));
                 step = after(covered);
                 state.contact = !state.contact;
@@ -77,42 +80,43 @@ impl<const N: usize> Dynamics<N> {
             stuck = covered == 0.0;
             elapsed = if length == left && within.is_none() { size } else { elapsed + covered };
             until_sample -= covered;
-            (phase, *node) = step;
+            (driven_state, *node) = step;
             if until_sample <= 0.0 && elapsed < size {
-                self.settle(state, &phase.flow, node);
+                self.settle(state, &driven_state.integrated, node);
                 until_sample = self.sample(state, loads.present(elapsed, &mut room), t + elapsed);
-                (phase.flow[6], phase.flow[7]) = (state.integrals.x, state.integrals.y);
+                driven_state.integrated.integrals = state.integrals;
             }
         }
-        state.position = start + motion.way(size) + phase.way;
+        state.position = start + motion.way(size) + driven_state.way;
         let rate = node.rate;
         node.take(&self.vehicle, &state.position, state.held, &rate);
-        [phase.flow[8], phase.flow[9]] = Rotation::by(phase.flow[2]).cos_sin();
-        *rotation = self.arm_rotation(&phase.flow);
-        self.settle(state, &phase.flow, node);
-        driven.momentum += driven.part(&(phase.outboard + torques.impulse(size)));
+        driven_state.integrated.set_rotation(Rotation::by(driven_state.integrated.pose.z));
+        *rotation = self.arm_rotation(&driven_state.integrated);
+        self.settle(state, &driven_state.integrated, node);
+        driven.momentum += driven.part(&(driven_state.outboard + torques.impulse(size)));
         if let Account::Outboard(outboard) = account {
-            outboard.add(&phase.outboard);
+            outboard.add(&driven_state.outboard);
         }
-        Ok(self.impulse(state, &before, &phase.flow, node, loads, size))
+        Ok(self.impulse(state, &before, &driven_state.integrated, node, loads, size))
     }
 
     /// Length of an internal step within which contact switches, if it does; as for imposed rates.
     fn switches(
         &self,
-        begin: &(Phase<N>, Node<N>),
-        end: &(Phase<N>, Node<N>),
+        begin: &(DrivenState<N>, Node<N>),
+        end: &(DrivenState<N>, Node<N>),
         size: f64,
         context: &StepContext<'_, N>,
-        after: &dyn Fn(f64) -> (Phase<N>, Node<N>),
+        after: &dyn Fn(f64) -> (DrivenState<N>, Node<N>),
     ) -> Option<f64> {
         if !context.held || self.support.stiffness == 0.0 {
             return None;
         }
-        let margin = |(phase, node): &(Phase<N>, Node<N>)| self.margin(&phase.flow, node, context);
-        let rate = |(phase, node): &(Phase<N>, Node<N>)| {
-            let rotation = self.arm_rotation(&phase.flow);
-            let velocity = in_inertial_frame(rotation, self.base_velocity(&phase.flow, rotation, node));
+        let margin =
+            |(driven_state, node): &(DrivenState<N>, Node<N>)| self.margin(&driven_state.integrated, node, context);
+        let rate = |(driven_state, node): &(DrivenState<N>, Node<N>)| {
+            let rotation = self.arm_rotation(&driven_state.integrated);
+            let velocity = in_inertial_frame(rotation, self.base_velocity(&driven_state.integrated, rotation, node));
             context.side() * self.gap_rate(rotation, node, &velocity)
         };
         if margin(end) < -NO_GAP {
@@ -123,9 +127,15 @@ impl<const N: usize> Dynamics<N> {
     }
 
     /// The longest internal step that resolves autopilot, support and turning.
-    fn longest_driven_step(&self, phase: &Phase<N>, node: &Node<N>, driven: &Driven<N>, contact: bool) -> f64 {
-        let rotation = self.arm_rotation(&phase.flow);
-        let roll_rate = self.base_velocity(&phase.flow, rotation, node).angular;
+    fn longest_driven_step(
+        &self,
+        driven_state: &DrivenState<N>,
+        node: &Node<N>,
+        driven: &Driven<N>,
+        contact: bool,
+    ) -> f64 {
+        let rotation = self.arm_rotation(&driven_state.integrated);
+        let roll_rate = self.base_velocity(&driven_state.integrated, rotation, node).angular;
         let turning = self.turning(&node.rate) + TUMBLING * roll_rate.abs();
         let mut fastest = turning.max(self.control_rate);
         if contact {

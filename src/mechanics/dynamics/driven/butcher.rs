@@ -8,15 +8,15 @@ use nalgebra::SVector;
 
 use super::{Driven, Torques};
 use crate::mechanics::dynamics::Dynamics;
-use crate::mechanics::dynamics::law::{Flow, Node, StepContext, turned};
+use crate::mechanics::dynamics::integrated_state::IntegratedState;
+use crate::mechanics::dynamics::law::{Node, StepContext};
 use crate::mechanics::kinematics::Displacement;
 use crate::mechanics::momentum::Twist;
-use crate::mechanics::planar::vec2;
 
 /// What the laws of motion integrate, or its rates.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Phase<const N: usize> {
-    pub flow: Flow,
+pub(super) struct DrivenState<const N: usize> {
+    pub integrated: IntegratedState,
     /// Way of the driven joints since the beginning of the step \[rad\].
     pub way: SVector<f64, N>,
     /// Of what changes the momenta about the coordinates, besides their motors, since then \[N m s, N s\].
@@ -42,17 +42,17 @@ const STAGE: [[f64; STAGES - 1]; STAGES] = [
 /// Shares of the stages in the step.
 const STEP: [f64; STAGES] = [11.0 / 120.0, 0.0, 27.0 / 40.0, 27.0 / 40.0, -4.0 / 15.0, -4.0 / 15.0, 11.0 / 120.0];
 
-impl<const N: usize> Phase<N> {
+impl<const N: usize> DrivenState<N> {
     /// At the beginning of a step.
-    pub fn new(flow: Flow) -> Self {
-        Self { flow, way: SVector::zeros(), outboard: SVector::zeros() }
+    pub fn new(integrated: IntegratedState) -> Self {
+        Self { integrated, way: SVector::zeros(), outboard: SVector::zeros() }
     }
 
     /// After a step of length `size` at the `rates` with these `shares`.
     fn after(mut self, rates: &[Self], shares: &[f64], size: f64) -> Self {
         for (rate, share) in rates.iter().zip(shares).filter(|(_, share)| **share != 0.0) {
             let time = share * size;
-            self.flow += rate.flow * time;
+            self.integrated = self.integrated + rate.integrated * time;
             self.way += rate.way * time;
             self.outboard += rate.outboard * time;
         }
@@ -61,45 +61,45 @@ impl<const N: usize> Phase<N> {
 }
 
 impl<const N: usize> Dynamics<N> {
-    /// One step of length `size` from `phase`, where the arm is at `node`.
+    /// One step of length `size` from `driven_state`, where the arm is at `node`.
     pub(super) fn driven_step(
         &self,
-        phase: &Phase<N>,
+        driven_state: &DrivenState<N>,
         node: &Node<N>,
         size: f64,
         context: &StepContext<'_, N>,
         (driven, torques): (&Driven<N>, &Torques<N>),
-    ) -> (Phase<N>, Node<N>) {
-        let arm = |at: &Phase<N>, t: f64| {
-            let way = context.motion.way(t) + (at.way - phase.way);
+    ) -> (DrivenState<N>, Node<N>) {
+        let arm = |at: &DrivenState<N>, t: f64| {
+            let way = context.motion.way(t) + (at.way - driven_state.way);
             let mut there = *node;
             let way = Displacement::small(&self.vehicle, &way);
             there.follow(&self.vehicle, node, &way, context.held, &context.motion.rate_after(t));
             let momentum = driven.momentum + at.outboard + torques.impulse(context.elapsed + t);
-            self.move_driven(&mut there, driven, self.momentum_in_uav(&at.flow), &momentum);
+            self.move_driven(&mut there, driven, self.momentum_in_uav(&at.integrated), &momentum);
             there
         };
         let mut room = None;
-        let mut rates = [Phase::new(Flow::zeros()); STAGES];
+        let mut rates = [DrivenState::new(IntegratedState::ZERO); STAGES];
         for stage in 0..STAGES {
             let t = NODES[stage] * size;
-            let at = phase.after(&rates[..stage], &STAGE[stage], size);
+            let at = driven_state.after(&rates[..stage], &STAGE[stage], size);
             let there = if stage == 0 { *node } else { arm(&at, t) };
             let load = context.loads.present(context.elapsed + t, &mut room);
-            let mut flow = Flow::zeros();
-            self.law(&mut flow, &at.flow, &there, load, context);
-            let outboard = self.outboard_load(&there, &self.carrier(&at.flow, &flow), context.held, load);
-            rates[stage] = Phase { flow, way: driven.part(&there.rate), outboard };
+            let mut integrated = IntegratedState::ZERO;
+            self.law(&mut integrated, &at.integrated, &there, load, context);
+            let outboard = self.outboard_load(&there, &self.carrier(&at.integrated, &integrated), context.held, load);
+            rates[stage] = DrivenState { integrated, way: driven.part(&there.rate), outboard };
         }
-        let mut end = phase.after(&rates, &STEP, size);
-        turned(&mut end.flow, &phase.flow);
+        let mut end = driven_state.after(&rates, &STEP, size);
+        end.integrated.align_rotation(&driven_state.integrated);
         let node = arm(&end, size);
         (end, node)
     }
 
     /// Momentum of the whole system in the axes of the UAV frame.
-    pub(super) fn momentum_in_uav(&self, y: &Flow) -> Twist {
-        Twist { linear: self.arm_rotation(y).undo(vec2(y[3], y[4])), angular: y[5] }
+    pub(super) fn momentum_in_uav(&self, y: &IntegratedState) -> Twist {
+        Twist { linear: self.arm_rotation(y).undo(y.momentum.xy()), angular: y.momentum.z }
     }
 }
 
@@ -127,7 +127,7 @@ mod tests {
         let loads = Loads::CALM;
         let end_in = |steps: u32| {
             let size = 0.3 / f64::from(steps);
-            let (mut phase, mut node) = (Phase::new(start.flow(BaseModel::Full)), start.node);
+            let (mut driven_state, mut node) = (DrivenState::new(start.integrated_state(BaseModel::Full)), start.node);
             node.move_at(&motion.rate);
             dynamics.move_driven(&mut node, &driven, Twist::ZERO, &SVector::zeros());
             for n in 0..steps {
@@ -135,14 +135,14 @@ mod tests {
                 let motion = motion.after(elapsed);
                 let context =
                     StepContext { loads: &loads, elapsed, held: false, contact: false, sampled: Vec2::zeros(), motion };
-                (phase, node) = dynamics.driven_step(&phase, &node, size, &context, (&driven, &torques));
+                (driven_state, node) = dynamics.driven_step(&driven_state, &node, size, &context, (&driven, &torques));
             }
-            (phase.flow, phase.way)
+            (driven_state.integrated, driven_state.way)
         };
         let exact = end_in(600);
         let error = |steps| {
-            let (flow, way) = end_in(steps);
-            (flow - exact.0).amax().max((way - exact.1).amax())
+            let (integrated, way) = end_in(steps);
+            integrated.distance(&exact.0).max((way - exact.1).amax())
         };
         let ratio = error(15) / error(30);
         assert!((50.0..80.0).contains(&ratio), "{ratio}");
