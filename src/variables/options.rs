@@ -1,6 +1,6 @@
 //! Closed sets of named alternatives: the type behind every enumeration parameter and status.
 //!
-//! An [`options!`] declaration is the only place where an alternative, its public name and its
+//! An [`options!`](crate::options!) declaration is the only place where an alternative, its public name and its
 //! description are written; enumerations in model descriptions, documentation and files derive from it.
 
 /// One alternative of an enumeration.

@@ -16,7 +16,10 @@ from documents import MISSING, NUMBER, Block, Hosts, MissingError, Part, Quote, 
 README, THESIS, DAMPING = "README.md", "docs/thesis.md", "docs/damping.md"
 STEPS_PAGE, SPEED = "docs/co-simulation.md", "docs/performance.md"
 COMPATIBILITY = "docs/compatibility.md"
-CLAIMS, WHICH_STEP = "fmu-build/src/study/claims/thesis.rs", "fmu-build/src/package/text/which_step.md"
+CLAIMS, WHICH_STEP = (
+    "fmu-build/src/study/claims/thesis.rs",
+    "fmu-build/src/package/text/which_step.md",
+)
 OUT = TARGET / "documents"
 
 Numbers = Callable[[], list[float]]

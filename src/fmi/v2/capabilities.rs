@@ -26,7 +26,7 @@ impl Capabilities {
 
     /// All flags as attributes of `CoSimulation`, in the order of the standard's schema.
     ///
-    /// State and serialization are there for every unit, as every [`Model`](super::Model) can be saved.
+    /// State and serialization are there for every unit, as every [`Model`](crate::fmi::Model) can be saved.
     #[must_use]
     pub fn attributes(&self) -> [(&'static str, &'static str); 10] {
         [

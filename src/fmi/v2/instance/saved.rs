@@ -57,7 +57,7 @@ impl<M: Model> Instance<M> {
     /// The state that bytes describe, for this instance or another of its structure.
     ///
     /// # Errors
-    /// If they are not what [`Saved::to_bytes`] gave for this unit and structure.
+    /// If they are not what a saved state had as its bytes for this unit and structure.
     pub fn read_saved(&self, bytes: &[u8]) -> Result<Saved<M>, Error> {
         self.permit(Call::DeSerializeFMUstate)?;
         let Some(rest) = bytes.strip_prefix(self.title().as_bytes()) else { return Err(self.foreign(bytes)) };
