@@ -117,7 +117,7 @@ pub struct Coupling<C: Unit, P: Unit> {
     pub controller: C,
     /// The plant.
     pub plant: P,
-    /// Who steps when.
+    /// Which unit steps with which values.
     pub order: Order,
     commands: Wires<C, P>,
     measurements: Wires<P, C>,

@@ -36,7 +36,8 @@ const CATCHING_UP: f64 = 0.2;
 /// What an external reference moves beyond what was foreseen is followed at this speed at most \[m/s\].
 const UNFORESEEN: f64 = 2.0;
 
-/// A target nearer than this is not said to be out of what one interval may make good \[m\].
+/// A target that one interval brings nearer than this counts as met, and the status does not say that it catches up: the
+/// iteration ends with a distance of some 1e-12 m, and a nanometre is no matter to anybody \[m\].
 const SHORTENED: f64 = 1e-9;
 
 /// Plans of which a polynomial leaves at most this share of the change from the one before unforeseen follow a smooth path.

@@ -33,7 +33,7 @@ impl From<&Counterweight> for Limits {
     }
 }
 
-/// Who is past a stop by no more than this is at it \[rad, m\].
+/// A coordinate that is past a stop by no more than this counts as being at it: rounding leaves as much \[rad, m\].
 const AT_STOP: f64 = 1e-9;
 
 impl Limits {
@@ -41,8 +41,8 @@ impl Limits {
     /// held for the time `past` \[s\], if rates may be held for the time `hold` \[s\], but no longer.
     ///
     /// At any rate in between, the coordinate can stop at its stops, by intervals of any lengths up to `hold`, each
-    /// slower than the one before by no more than the acceleration limit allows in the length of that one. Who is past a
-    /// stop must come back, as fast as the limits allow. Where not all limits can hold, since they have been changed,
+    /// slower than the one before by no more than the acceleration limit allows in the length of that one. A coordinate past
+    /// a stop must come back, as fast as the limits allow. Where not all limits can hold, since they have been changed,
     /// or since the start is too near to a stop, that of the acceleration does.
     #[must_use]
     pub fn window(&self, position: f64, before: f64, [past, hold]: [f64; 2]) -> [f64; 2] {
@@ -59,7 +59,7 @@ impl Limits {
         position < self.lower - AT_STOP || position > self.upper + AT_STOP
     }
 
-    /// The largest rate towards a stop at this `distance`, negative for who is past it.
+    /// The largest rate towards a stop at this `distance`; the distance is negative past the stop, and the rate leads back.
     fn fastest(&self, distance: f64, hold: f64) -> f64 {
         if distance < -AT_STOP {
             -self.rate
@@ -77,7 +77,7 @@ impl Limits {
         2.0 * self.acceleration * distance >= rate * (rate + 2.0 * self.acceleration * hold)
     }
 
-    /// Whether one who is at `position` may hold this `rate` for the time `hold` \[s\], and can stop at the stops then.
+    /// Whether a coordinate at `position` may hold this `rate` for the time `hold` \[s\] and can still stop at its stops.
     #[must_use]
     pub fn can_hold(&self, position: f64, rate: f64, hold: f64) -> bool {
         let distance = if rate < 0.0 { position - self.lower } else { self.upper - position };
@@ -230,12 +230,12 @@ mod tests {
         assert_eq!(limits.window(-1.5, 0.0, [0.01, 0.01]), [0.1, 0.1]);
         // Moving outwards still, it slows down as fast as it may.
         assert_eq!(limits.window(1.5, 0.5, [0.01, 0.01]), [0.4, 0.4]);
-        // Who is past a stop by rounding is at it.
+        // A coordinate that is past a stop by rounding is at it.
         let [least, most] = limits.window(1.0 + f64::EPSILON, 0.0, [0.1, 0.1]);
         assert!(least == -1.0 && -1e-14 < most && most < 0.0);
     }
 
-    /// With stops close together, who comes back from past one does not pass the other.
+    /// With stops close together, a coordinate that comes back from past one does not pass the other.
     #[test]
     fn coming_back_ends_before_the_other_stop() {
         let limits = Limits { rate: 10.0, acceleration: 1e3, lower: 0.0, upper: 0.0 };

@@ -106,7 +106,7 @@ impl Place {
 /// Where all variables are: a good guess where those of a similar problem are.
 pub type Places = [Place; MAX_VARIABLES];
 
-/// The guess of who knows nothing: all variables are free.
+/// The guess where nothing is known of the answer: no variable is at a bound.
 pub const FREE: Places = [Place::Above; MAX_VARIABLES];
 
 /// What an answer is worth.

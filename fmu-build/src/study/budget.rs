@@ -50,7 +50,7 @@ pub struct Variant {
     pub discretization: Discretization,
     /// How rates move within a step.
     pub hold: Hold,
-    /// Who steps when.
+    /// Which unit steps with which values.
     pub order: Order,
     /// The autopilot.
     pub pilot: Pilot,

@@ -21,16 +21,16 @@ const AT_REST: f64 = 2e-11;
 /// So often an error that rounding has left of a long way is reduced.
 pub(super) const REPEATS: usize = 5;
 
-/// Who has been so many times as far away as the answer brings rounding along.
+/// If the variables have been so many times as far away as the answer, the answer has lost digits on the way.
 const LONG: f64 = 30.0;
 
 /// Steps of less than this share of the variables have no length.
 const STILL: f64 = 1e-10;
 
-/// So many steps without length are degenerate; with more, rounding goes round.
+/// Degenerate problems need steps without length, but not so many: more mean that rounding leads round in a circle.
 const PATIENCE: usize = 25;
 
-/// Nobody goes farther in one step: where penalties leave the ridge far behind, the direction alone counts.
+/// The farthest step: with vanishing penalties the minimum lies beyond all numbers, and only its direction counts.
 const FAR: f64 = 1e100;
 
 /// The variables on their way.
@@ -139,7 +139,8 @@ impl<'a> Search<'a> {
                 Level::Last => self.entering(stalls > 0),
             };
             let Some((i, side)) = next else {
-                // Whoever says so looks at the answer itself. Rounding of a long way here is taken back.
+                // No multiplier asks for a release. Before the problem counts as solved the equalities are looked at themselves,
+                // and digits that were lost on a long way here are won back.
                 let equalities = &self.problem.equalities;
                 if equalities.satisfied_by(&self.x, ROUNDING) {
                     return Outcome::Solved;

@@ -197,7 +197,7 @@ impl<const N: usize> Dynamics<N> {
         let vehicle = &self.vehicle;
         let arm = (0..N).map(|i| rate[i].abs() * vehicle.revolute[i]).sum::<f64>();
         match vehicle.balancer {
-            // Nobody sees a disc turn.
+            // A balanced disc that turns changes nothing that is integrated.
             Some(Balancer::Element(body)) if body.first != 0.0 => arm.max(rate[N - 1].abs()),
             _ => arm,
         }
