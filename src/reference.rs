@@ -104,17 +104,17 @@ impl Profile {
     /// Way \[s\], velocity and acceleration \[1/s\] of a ramp from rest to velocity 1, `t` into its `duration`.
     #[inline]
     fn ramp(self, t: f64, duration: f64) -> [f64; 3] {
-        const TURN: f64 = std::f64::consts::TAU;
-        const PER_TURN: f64 = 1.0 / TURN;
+        const FULL_CIRCLE: f64 = std::f64::consts::TAU;
+        const PER_CIRCLE: f64 = 1.0 / FULL_CIRCLE;
         let steepness = 1.0 / duration;
         let share = t * steepness;
         match self {
             Self::Trapezoidal => [0.5 * t * share, share, steepness],
             Self::Smooth => {
-                let [cos, sin] = Rotation::by(TURN * share).cos_sin();
+                let [cos, sin] = Rotation::by(FULL_CIRCLE * share).cos_sin();
                 [
-                    0.5 * t * share - duration * (PER_TURN * PER_TURN) * (1.0 - cos),
-                    share - sin * PER_TURN,
+                    0.5 * t * share - duration * (PER_CIRCLE * PER_CIRCLE) * (1.0 - cos),
+                    share - sin * PER_CIRCLE,
                     (1.0 - cos) * steepness,
                 ]
             }
@@ -151,7 +151,7 @@ impl Target {
 
     /// The motion a time `t` \[s\] later, or earlier, at constant acceleration.
     #[must_use]
-    pub fn at(&self, t: f64) -> Self {
+    pub fn after(&self, t: f64) -> Self {
         let Self { displacement, velocity: v, acceleration: a } = *self;
         Self { displacement: displacement + (v + a * (0.5 * t)) * t, velocity: v + a * t, acceleration: a }
     }
@@ -223,9 +223,9 @@ impl Reference {
                 self.legs.iter().for_each(|leg| leg.add(t, target));
             }
             ReferenceKind::Circle => {
-                let rotation = std::f64::consts::TAU;
+                use std::f64::consts::TAU;
                 let whole = Leg { duration: self.circle.duration, ramp: 0.5 * self.circle.duration, ..Leg::NONE };
-                let [angle, rate, acceleration] = whole.progress(t).map(|share| rotation * share);
+                let [angle, rate, acceleration] = whole.progress(t).map(|share| TAU * share);
                 let radius = 0.5 * self.circle.diameter;
                 let [cos_0, sin_0] = Rotation::by(self.circle.start_angle).cos_sin();
                 let [cos, sin] = Rotation::by(self.circle.start_angle + angle).cos_sin();

@@ -59,11 +59,11 @@ impl<const N: usize> PlanContext<N> {
         let here = &self.now.situation;
         let state = &mut end.situation.state;
         let gained = self.dynamics.begin_explicit(here, t, size, state);
-        let way = self.motion.rate * size;
-        state.position += way;
+        let displacement = self.motion.rate * size;
+        state.position += displacement;
         let mut ahead = Situation { state: *state, ..*here };
-        let way = Displacement::small(&self.dynamics.vehicle, &way);
-        ahead.node.follow(&self.dynamics.vehicle, &here.node, &way, state.held, &state.rate);
+        let displacement = Displacement::small(&self.dynamics.vehicle, &displacement);
+        ahead.node.follow(&self.dynamics.vehicle, &here.node, &displacement, state.held, &state.rate);
         (ahead, self.now.carried + gained)
     }
 
@@ -76,8 +76,8 @@ impl<const N: usize> PlanContext<N> {
         [t, size]: [f64; 2],
         end: &mut Prediction<N>,
     ) {
-        let way = motion.slope * (0.5 * size * size);
-        self.end_explicit(ahead, response, &motion.rate_after(size), &way, [t, size], end);
+        let displacement = motion.slope * (0.5 * size * size);
+        self.end_explicit(ahead, response, &motion.rate_after(size), &displacement, [t, size], end);
     }
 
     /// What is asked of the rates at the end of an interval of length `interval` \[s\], where the system answers with

@@ -28,7 +28,7 @@ pub(super) struct Clock {
     /// Length of the interval for which the last plan was made.
     pub horizon: f64,
     /// How long the last plan was really held.
-    pub past: f64,
+    pub previous_duration: f64,
     /// The next step is hardly longer than this.
     expected: f64,
     /// The longest step so far.
@@ -38,7 +38,14 @@ pub(super) struct Clock {
 impl Clock {
     /// Before the first step: a sample time is all that is known.
     pub fn new(sample_time: f64) -> Self {
-        Self { sample_time, since_plan: 0.0, horizon: sample_time, past: sample_time, expected: 0.0, longest: 0.0 }
+        Self {
+            sample_time,
+            since_plan: 0.0,
+            horizon: sample_time,
+            previous_duration: sample_time,
+            expected: 0.0,
+            longest: 0.0,
+        }
     }
 
     /// The host has made a step of this `size`.
@@ -54,14 +61,14 @@ impl Clock {
     }
 
     /// A plan is made after a step of this `size`: chooses the interval for which it is made.
-    pub fn plan(&mut self, size: f64) {
-        self.past = self.since_plan;
+    pub fn begin_interval(&mut self, size: f64) {
+        self.previous_duration = self.since_plan;
         self.since_plan = 0.0;
         // As many steps of this size as will pass until the next plan.
         let room = self.latest() - self.expected;
         let fitting = if room < size { size } else { size * ((room / size).floor() + 1.0) };
-        let forgotten = FORGETTING * self.past;
-        self.horizon = fitting.max(self.past).max(self.horizon - forgotten);
+        let forgotten = FORGETTING * self.previous_duration;
+        self.horizon = fitting.max(self.previous_duration).max(self.horizon - forgotten);
         self.expected = size.max(self.expected - forgotten);
     }
 
@@ -81,11 +88,11 @@ impl Clock {
     /// # Errors
     /// Names a time that it cannot show.
     pub fn check_memory(&self) -> Result<()> {
-        let Self { sample_time: _, since_plan, horizon, past, expected, longest } = *self;
+        let Self { sample_time: _, since_plan, horizon, previous_duration, expected, longest } = *self;
         let times = [
             ("time since the last plan", since_plan),
             ("length of the planned interval", horizon),
-            ("length of the last interval", past),
+            ("length of the last interval", previous_duration),
             ("expected step", expected),
             ("longest step", longest),
         ];
@@ -98,7 +105,7 @@ impl Clock {
 
 impl Memory for Clock {
     fn pass(&mut self, tape: &mut Tape<'_>) {
-        let Self { sample_time: _, since_plan, horizon, past, expected, longest } = self;
-        pass!(tape: since_plan, horizon, past, expected, longest);
+        let Self { sample_time: _, since_plan, horizon, previous_duration, expected, longest } = self;
+        pass!(tape: since_plan, horizon, previous_duration, expected, longest);
     }
 }

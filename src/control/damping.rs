@@ -22,13 +22,13 @@ use crate::parameters::InverseKinematics;
 use crate::pass;
 
 /// Where limits keep the moment from what is wanted, this many times c is added to it.
-const MORE: f64 = 9.0;
+const EXTRA: f64 = 9.0;
 
 /// How long that lasts after limits have bound, as time constant \[s\].
 const CALMING: f64 = 1.0;
 
 /// Less of it is nothing.
-const NO_MORE: f64 = 1e-3;
+const NO_EXTRA: f64 = 1e-3;
 
 /// The damping of one controller.
 #[derive(Debug, Clone, Copy)]
@@ -42,7 +42,7 @@ pub(super) struct MomentDamping {
     /// s \[N m s\].
     slow: f64,
     /// How many times c is added to it, after limits have kept the moment from what was wanted.
-    more: f64,
+    extra: f64,
     factors: Factors,
 }
 
@@ -61,7 +61,7 @@ impl MomentDamping {
     /// As the settings say; nothing has moved yet.
     pub fn new(settings: &InverseKinematics) -> Self {
         let factors = Factors { size: f64::NAN, left: 1.0, approach: 0.0 };
-        let mut damping = Self { damping: 0.0, washout: 1.0, momentum: 0.0, slow: 0.0, more: 0.0, factors };
+        let mut damping = Self { damping: 0.0, washout: 1.0, momentum: 0.0, slow: 0.0, extra: 0.0, factors };
         damping.tune(settings);
         damping
     }
@@ -81,7 +81,7 @@ impl MomentDamping {
 
     fn factors_of(&self, size: f64) -> Factors {
         let fading = libm::exp(-size / self.washout);
-        let gain = libm::expm1(self.damping * (1.0 + self.more) * size) * fading;
+        let gain = libm::expm1(self.damping * (1.0 + self.extra) * size) * fading;
         Factors { size, left: 1.0 / (1.0 + gain), approach: 1.0 - fading }
     }
 
@@ -93,7 +93,7 @@ impl MomentDamping {
 
     /// How carefully the moment is to be met, 0 to 1: limits, or the path, have lately kept it from what was wanted.
     pub fn caution(&self) -> f64 {
-        self.more / MORE
+        self.extra / EXTRA
     }
 
     /// The rates of the present plan have been held for `size` \[s\]; `met`: the moment was what was wanted.
@@ -105,12 +105,12 @@ impl MomentDamping {
         let lasting = if met { self.momentum } else { 0.0 };
         self.slow += (lasting - self.slow) * self.factors.approach;
         if met {
-            if self.more > 0.0 {
-                self.more = if self.more > NO_MORE { self.more * (1.0 - (size / CALMING).min(1.0)) } else { 0.0 };
+            if self.extra > 0.0 {
+                self.extra = if self.extra > NO_EXTRA { self.extra * (1.0 - (size / CALMING).min(1.0)) } else { 0.0 };
                 self.factors.size = f64::NAN;
             }
         } else {
-            self.more = MORE;
+            self.extra = EXTRA;
             self.factors.size = f64::NAN;
         }
     }
@@ -131,8 +131,8 @@ impl MomentDamping {
 impl Memory for MomentDamping {
     fn pass(&mut self, tape: &mut Tape<'_>) {
         // The settings are parameters, and the factors follow from them.
-        let Self { damping: _, washout: _, momentum, slow, more, factors } = self;
-        pass!(tape: momentum, slow, more);
+        let Self { damping: _, washout: _, momentum, slow, extra, factors } = self;
+        pass!(tape: momentum, slow, extra);
         factors.size = f64::NAN;
     }
 }

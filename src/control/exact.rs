@@ -43,9 +43,9 @@ const SHORTENED: f64 = 1e-9;
 /// Plans of which a polynomial leaves at most this share of the change from the one before unforeseen follow a smooth path.
 const SMOOTH: f64 = 0.1;
 
-/// The wanted way of one interval.
+/// What one interval is to reach.
 #[derive(Debug, Clone, Copy)]
-struct Way<'a> {
+struct Goal<'a> {
     /// When it begins, from the start \[s\].
     t: f64,
     clock: &'a Clock,
@@ -71,16 +71,16 @@ impl<const N: usize> PlanContext<N> {
         end: &mut Prediction<N>,
     ) -> Result<Plan<N>> {
         let (here, horizon) = (self.now.end_effector(), clock.horizon);
-        let followed = |way: Vec2| self.resolver.followed(way);
+        let followed = |displacement: Vec2| self.resolver.followed(displacement);
         let behind = followed(expected - here);
-        let left_over = capped(behind, self.catching_up_speed(behind, horizon) * horizon);
-        let unforeseen = capped(followed(now - expected), UNFORESEEN * horizon);
+        let left_over = shortened_to(behind, self.catching_up_speed(behind, horizon) * horizon);
+        let unforeseen = shortened_to(followed(now - expected), UNFORESEEN * horizon);
         let nearer = Target {
             displacement: here + left_over + unforeseen + (target.displacement - now),
             velocity: target.velocity + (left_over + unforeseen) / horizon,
             ..*target
         };
-        let mut plan = self.plan_path_first(Way { t, clock, target: nearer, aims: Aims::All }, end)?;
+        let mut plan = self.plan_path_first(Goal { t, clock, target: nearer, aims: Aims::All }, end)?;
         let missing = followed(target.displacement - end.end_effector());
         plan.velocity_residual = missing.norm() / horizon;
         let shortened = followed(now - here) - (left_over + unforeseen);
@@ -97,33 +97,33 @@ impl<const N: usize> PlanContext<N> {
     /// limited, so slowly that the joints can brake in time: with 30 % of what the slowest joint is able to, for the rest of
     /// the motion needs acceleration, too.
     fn catching_up_speed(&self, behind: Vec2, horizon: f64) -> f64 {
-        let way = behind.norm();
-        if !self.resolver.limits_accelerations() || way <= SHORTENED {
+        let distance = behind.norm();
+        if !self.resolver.limits_accelerations() || distance <= SHORTENED {
             return CATCHING_UP;
         }
         let Situation { node, rotation, state } = &self.now.situation;
         let response = self.response(node, *rotation, state);
         let along = Problem {
             path: response.jacobian,
-            velocity: rotation.undo(behind / way),
+            velocity: rotation.undo(behind / distance),
             interval: horizon,
             caution: 0.0,
             moment: Task { row: response.carried, value: 0.0 },
         };
         let braking = 0.3 * self.resolver.acceleration_along(&along);
         let change = 0.5 * braking * horizon;
-        CATCHING_UP.min((change * change + 2.0 * braking * way).sqrt() - change)
+        CATCHING_UP.min((change * change + 2.0 * braking * distance).sqrt() - change)
     }
 
-    /// A plan for the `way`. Where its iteration leaves the path, that may be for the sake of the second task: it is made
+    /// A plan for the `goal`. Where its iteration leaves the path, that may be for the sake of the second task: it is made
     /// once more without it. Writes the prediction at its `end`.
-    fn plan_path_first(&self, way: Way<'_>, end: &mut Prediction<N>) -> Result<Plan<N>> {
-        let plan = self.plan_exact(way, end)?;
-        let left = self.missing(&way.target, way.clock.horizon, &end.situation);
+    fn plan_path_first(&self, goal: Goal<'_>, end: &mut Prediction<N>) -> Result<Plan<N>> {
+        let plan = self.plan_exact(goal, end)?;
+        let left = self.missing(&goal.target, goal.clock.horizon, &end.situation);
         if left.norm_squared() <= ON_PATH * ON_PATH || !self.resolver.has_second_task() {
             return Ok(plan);
         }
-        self.plan_path_alone(way, end, (plan, left.norm()))
+        self.plan_path_alone(goal, end, (plan, left.norm()))
     }
 
     /// The better one of the plan without second task and of another one, which leaves the end effector as far off the
@@ -132,13 +132,13 @@ impl<const N: usize> PlanContext<N> {
     #[inline(never)]
     fn plan_path_alone(
         &self,
-        way: Way<'_>,
+        goal: Goal<'_>,
         end: &mut Prediction<N>,
         (with_task, left): (Plan<N>, f64),
     ) -> Result<Plan<N>> {
         let mut other = *end;
-        let mut plan = self.plan_exact(Way { aims: Aims::Path, ..way }, &mut other)?;
-        let left_alone = self.missing(&way.target, way.clock.horizon, &other.situation).norm();
+        let mut plan = self.plan_exact(Goal { aims: Aims::Path, ..goal }, &mut other)?;
+        let left_alone = self.missing(&goal.target, goal.clock.horizon, &other.situation).norm();
         if left_alone >= 0.5 * left {
             return Ok(with_task);
         }
@@ -149,17 +149,17 @@ impl<const N: usize> PlanContext<N> {
         Ok(plan)
     }
 
-    /// The motion in the interval of the `way` at whose end the end effector is on the target, as
+    /// The motion in the interval of the `goal` at whose end the end effector is on the target, as
     /// near as the iteration gets: at its place, with a hold of first order with its velocity, too, and if
     /// accelerations are chosen with its velocity alone. Writes the prediction at its `end`.
     ///
     /// # Errors
     /// If the interval cannot be integrated.
-    fn plan_exact(&self, Way { t, clock, target, aims }: Way<'_>, end: &mut Prediction<N>) -> Result<Plan<N>> {
+    fn plan_exact(&self, Goal { t, clock, target, aims }: Goal<'_>, end: &mut Prediction<N>) -> Result<Plan<N>> {
         let horizon = clock.horizon;
         let accelerates = self.resolver.accelerates();
         let cancels = aims == Aims::All && self.resolver.cancels_moment();
-        let mut plan = Plan { places: self.places, ..Plan::moving(self.go_on(horizon)) };
+        let mut plan = Plan { places: self.places, ..Plan::moving(self.extrapolated_motion(horizon)) };
         // The impulse that the rates in question should exert on the UAV, as far as all is linear.
         let mut linear = 0.0;
         let mut nearest: Option<(f64, Plan<N>)> = None;
@@ -211,7 +211,7 @@ impl<const N: usize> PlanContext<N> {
             if extent(&change, horizon) * self.resolver.reach <= ON_REFERENCE {
                 // So little is linear. Where the path is given up in part, it also says when nothing changes any more.
                 self.dynamics.displace(&mut end.situation, &change.way(horizon), &motion.rate_after(horizon));
-                self.weigh(&mut plan, impulse, horizon, end);
+                self.write_moment(&mut plan, impulse, horizon, end);
                 return Ok(plan);
             }
         }
@@ -229,7 +229,7 @@ impl<const N: usize> PlanContext<N> {
     ///
     /// Where such a polynomial would not have foreseen the last plan, for the wanted motion jumps or intervals differ in
     /// length, it would be so far off that the iteration might not end: there the last motion goes on.
-    fn go_on(&self, horizon: f64) -> Motion<N> {
+    fn extrapolated_motion(&self, horizon: f64) -> Motion<N> {
         let change = self.combined([1.0, -1.0, 0.0, 0.0, 0.0]);
         let unforeseen = self.combined([1.0, -4.0, 6.0, -4.0, 1.0]);
         if extent(&unforeseen, horizon) < SMOOTH * extent(&change, horizon) {
@@ -239,11 +239,11 @@ impl<const N: usize> PlanContext<N> {
         }
     }
 
-    /// The sum of the past motions with these weights, the last one first.
+    /// The sum of the earlier motions with these weights, the last one first.
     #[inline(never)]
     fn combined(&self, weights: [f64; 5]) -> Motion<N> {
         let mut sum = Motion::constant(SVector::zeros());
-        for (motion, weight) in self.before.iter().zip(weights) {
+        for (motion, weight) in self.earlier_motions.iter().zip(weights) {
             sum.rate += motion.rate * weight;
             sum.slope += motion.slope * weight;
         }
@@ -266,18 +266,18 @@ impl<const N: usize> PlanContext<N> {
     /// # Errors
     /// If it cannot be integrated.
     pub fn carry_out(&self, plan: &mut Plan<N>, t: f64, horizon: f64, end: &mut Prediction<N>) -> Result<f64> {
-        let Prediction { situation, way, .. } = end;
+        let Prediction { situation, integration, .. } = end;
         *situation = self.now.situation;
-        way.sum = 0.0;
-        self.dynamics.advance(situation, &plan.motion, &Loads::CALM, t, horizon, Account::Carried(way))?;
-        let impulse = way.sum;
-        self.weigh(plan, impulse, horizon, end);
+        integration.sum = 0.0;
+        self.dynamics.advance(situation, &plan.motion, &Loads::CALM, t, horizon, Account::Carried(integration))?;
+        let impulse = integration.sum;
+        self.write_moment(plan, impulse, horizon, end);
         Ok(impulse)
     }
 
     /// Makes the angular momentum at the `end` follow from its situation, and the moment on the UAV that is left in the
     /// `plan` from that and from the `impulse` of all other moments on what the UAV carries \[N m s\].
-    fn weigh(&self, plan: &mut Plan<N>, impulse: f64, horizon: f64, end: &mut Prediction<N>) {
+    fn write_moment(&self, plan: &mut Plan<N>, impulse: f64, horizon: f64, end: &mut Prediction<N>) {
         end.end_step(&self.dynamics);
         plan.moment_residual = (self.now.carried + impulse - end.carried) / horizon;
     }
@@ -306,8 +306,8 @@ fn extent<const N: usize>(change: &Motion<N>, horizon: f64) -> f64 {
     change.way(horizon).norm() + change.rate_after(horizon).norm() * horizon
 }
 
-/// The way `way`, shortened to `most` \[m\] where it is longer. Mostly it is not, and then takes neither root nor division; nor
-/// is there ever a division by 0, whose flag takes a processor 100 ns to raise if the host has not raised it.
-fn capped(way: Vec2, most: f64) -> Vec2 {
-    way * if way.norm_squared() <= most * most { 1.0 } else { most / way.norm() }
+/// This `displacement`, shortened to `most` \[m\] where it is longer. Mostly it is not, and then it takes neither root nor
+/// division. Nor is there ever a division by 0: raising its flag takes a processor 100 ns if the host has not raised it.
+fn shortened_to(displacement: Vec2, most: f64) -> Vec2 {
+    displacement * if displacement.norm_squared() <= most * most { 1.0 } else { most / displacement.norm() }
 }

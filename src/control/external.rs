@@ -85,7 +85,7 @@ impl External {
 
     /// The wanted motion at time `t` \[s\].
     pub fn at(&self, t: f64) -> Target {
-        self.latest.at(t - self.time)
+        self.latest.after(t - self.time)
     }
 
     /// Its acceleration, from the last value on \[m/s2\].

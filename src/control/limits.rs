@@ -37,21 +37,21 @@ impl From<&Counterweight> for Limits {
 const AT_STOP: f64 = 1e-9;
 
 impl Limits {
-    /// Smallest and largest rate for an interval that starts at `position` with a jump from the rate `before`, which was
-    /// held for the time `past` \[s\], if rates may be held for the time `hold` \[s\], but no longer.
+    /// Smallest and largest rate for an interval that starts at `position` with a jump from `previous_rate`, which was
+    /// held for the time `previous_duration` \[s\], if rates may be held for the time `hold` \[s\], but no longer.
     ///
     /// At any rate in between, the coordinate can stop at its stops, by intervals of any lengths up to `hold`, each
     /// slower than the one before by no more than the acceleration limit allows in the length of that one. A coordinate past
     /// a stop must come back, as fast as the limits allow. Where not all limits can hold, since they have been changed,
     /// or since the start is too near to a stop, that of the acceleration does.
     #[must_use]
-    pub fn window(&self, position: f64, before: f64, [past, hold]: [f64; 2]) -> [f64; 2] {
-        let change = self.acceleration * past;
+    pub fn window(&self, position: f64, previous_rate: f64, [previous_duration, hold]: [f64; 2]) -> [f64; 2] {
+        let change = self.acceleration * previous_duration;
         let [downwards, upwards] =
             [position - self.lower, self.upper - position].map(|distance| self.fastest(distance, hold));
         // Coming back, it must not pass the other stop.
         [(-downwards).min(upwards.max(0.0)), upwards.max(-downwards.max(0.0))]
-            .map(|rate| rate.min(before + change).max(before - change))
+            .map(|rate| rate.min(previous_rate + change).max(previous_rate - change))
     }
 
     /// Whether `position` is past a stop.
@@ -84,14 +84,21 @@ impl Limits {
         rate == 0.0 || self.is_far(distance, rate.abs(), hold) || rate.abs() <= self.stopping_rate(distance, hold)
     }
 
-    /// The rate from `position` that leads towards `target` without overshooting, where the rate `before` was held for
-    /// the time `past` \[s\] and the next one may be held for `hold` \[s\]: as fast as the limits allow, and at the end
-    /// exponentially with the time constant `time` \[s\].
+    /// The rate from `position` that leads towards `target` without overshooting, where `previous_rate` was held for the
+    /// time `previous_duration` \[s\] and the next one may be held for `hold` \[s\]: as fast as the limits allow, and at the
+    /// end exponentially with the time constant `time` \[s\].
     #[must_use]
     #[inline(never)]
-    pub fn approach(&self, target: f64, position: f64, before: f64, [past, hold]: [f64; 2], time: f64) -> f64 {
+    pub fn approach(
+        &self,
+        target: f64,
+        position: f64,
+        previous_rate: f64,
+        [previous_duration, hold]: [f64; 2],
+        time: f64,
+    ) -> f64 {
         let distance = target.min(self.upper).max(self.lower) - position;
-        let [least, most] = self.window(position, before, [past, hold]);
+        let [least, most] = self.window(position, previous_rate, [previous_duration, hold]);
         let speed = self.stopping_rate(distance.abs(), hold).min(distance.abs() / time.max(hold));
         (speed * distance.signum()).min(most).max(least)
     }
@@ -123,14 +130,16 @@ pub struct Allowed {
 }
 
 impl Allowed {
-    /// For coordinates with these `limits`, from `position` and after the rates `before`; no motion of others. The `times`
-    /// are those of [`Limits::window`].
+    /// For coordinates with these `limits`, from `position` and after the rates `previous_rate`; no motion of others. The
+    /// `times` are those of [`Limits::window`].
     #[must_use]
     #[inline(never)]
-    pub fn new(limits: &[Limits], position: &[f64], before: &[f64], times: [f64; 2]) -> Self {
+    pub fn new(limits: &[Limits], position: &[f64], previous_rate: &[f64], times: [f64; 2]) -> Self {
         let mut allowed = Self { least: [0.0; MAX_VARIABLES], most: [0.0; MAX_VARIABLES], returning: false };
-        for (i, (limits, (position, before))) in limits.iter().zip(position.iter().zip(before)).enumerate() {
-            [allowed.least[i], allowed.most[i]] = limits.window(*position, *before, times);
+        for (i, (limits, (position, previous_rate))) in
+            limits.iter().zip(position.iter().zip(previous_rate)).enumerate()
+        {
+            [allowed.least[i], allowed.most[i]] = limits.window(*position, *previous_rate, times);
             allowed.returning |= limits.is_past(*position);
         }
         allowed
@@ -175,21 +184,21 @@ mod tests {
             start in 0.0..1.0_f64, choices in prop::collection::vec((0.0..1.0_f64, 0.0..1.5_f64), 200),
         ) {
             let limits = Limits { rate, acceleration: braking * rate, lower: -0.3, upper: 0.5 };
-            let (mut position, mut before, mut past) = (-0.3 + 0.8 * start, 0.0_f64, hold);
+            let (mut position, mut previous_rate, mut previous_duration) = (-0.3 + 0.8 * start, 0.0_f64, hold);
             for (choice, share) in choices {
-                let [least, most] = limits.window(position, before, [past, hold]);
+                let [least, most] = limits.window(position, previous_rate, [previous_duration, hold]);
                 prop_assert!(least <= most);
                 // Often at the ends.
                 let next = least + (most - least) * (2.0 * choice - 0.5).clamp(0.0, 1.0);
                 prop_assert!(next.abs() <= rate * (1.0 + 1e-12));
-                prop_assert!((next - before).abs() <= limits.acceleration * past * (1.0 + 1e-12));
+                prop_assert!((next - previous_rate).abs() <= limits.acceleration * previous_duration * (1.0 + 1e-12));
                 let rest = rest(&limits, position, next, hold);
                 prop_assert!((-0.3 - 1e-9..=0.5 + 1e-9).contains(&rest), "{rest}");
                 prop_assert!(next.abs() < 1e-9 || limits.can_hold(position, next * (1.0 - 1e-9), hold));
                 // Often as long as may be, else of any length.
                 let size = hold * share.clamp(1e-6, 1.0);
                 position += next * size;
-                (before, past) = (next, size);
+                (previous_rate, previous_duration) = (next, size);
                 prop_assert!((-0.3 - 1e-12..=0.5 + 1e-12).contains(&position), "{position}");
             }
         }
@@ -212,11 +221,11 @@ mod tests {
             acceleration in 0.5..100.0_f64, size in 1e-3..0.1_f64, target in -1.2..1.2_f64, time in 0.0..0.1_f64,
         ) {
             let limits = Limits { rate: 2.0, acceleration, lower: -1.0, upper: 1.0 };
-            let (mut position, mut before) = (0.0_f64, 0.0);
+            let (mut position, mut previous_rate) = (0.0_f64, 0.0);
             let end = target.clamp(-1.0, 1.0);
             for _ in 0..20_000 {
-                before = limits.approach(target, position, before, [size, size], time);
-                position += before * size;
+                previous_rate = limits.approach(target, position, previous_rate, [size, size], time);
+                position += previous_rate * size;
                 prop_assert!(position.abs() <= end.abs() + 1e-12);
             }
             prop_assert!((position - end).abs() < 1e-9, "{position}");

@@ -26,7 +26,7 @@ pub(super) struct PlanContext<const N: usize> {
     /// Rates and accelerations sent.
     pub motion: Motion<N>,
     /// Motions of the five plans before, the last one first.
-    pub before: [Motion<N>; 5],
+    pub earlier_motions: [Motion<N>; 5],
     /// Which rates are at their limits.
     pub places: Places,
     /// Damping of the free motion.
@@ -56,8 +56,8 @@ impl<const N: usize> PlanContext<N> {
     pub fn solve(&self, problem: &Problem<N>, clock: &Clock, guess: &Places, aims: Aims) -> Resolved<N> {
         let interval = Interval {
             beginning: &self.now.situation,
-            before: &self.motion.rate,
-            past: clock.past,
+            previous_rate: &self.motion.rate,
+            previous_duration: clock.previous_duration,
             hold: clock.longest_hold(),
             guess,
             aims,
@@ -90,17 +90,17 @@ impl<const N: usize> PlanContext<N> {
     }
 
     /// Brings `end`, which has begun an explicit step in `here`, to its end at the rates `rate`, to which the system
-    /// answers with `response`, over the way `way` of the coordinates; the step takes `size` from time `t`.
+    /// answers with `response`, over this `displacement` of the coordinates; the step takes `size` from time `t`.
     pub fn end_explicit(
         &self,
         here: &Situation<N>,
         response: &Response<N>,
         rate: &SVector<f64, N>,
-        way: &SVector<f64, N>,
+        displacement: &SVector<f64, N>,
         [t, size]: [f64; 2],
         end: &mut Prediction<N>,
     ) {
-        self.dynamics.end_explicit(here, rate, way, [t, size], &mut end.situation);
+        self.dynamics.end_explicit(here, rate, displacement, [t, size], &mut end.situation);
         end.carried = response.carried_momentum(rate);
     }
 }
@@ -108,9 +108,9 @@ impl<const N: usize> PlanContext<N> {
 impl<const N: usize> Memory for PlanContext<N> {
     fn pass(&mut self, tape: &mut Tape<'_>) {
         // Without "..": whoever adds a field decides here whether it follows from the parameters.
-        let Self { dynamics, resolver: _, hold: _, now, motion, before, places, damping, owed } = self;
+        let Self { dynamics, resolver: _, hold: _, now, motion, earlier_motions, places, damping, owed } = self;
         dynamics.pass_gains(tape);
-        pass!(tape: now, motion, before, damping, owed);
+        pass!(tape: now, motion, earlier_motions, damping, owed);
         places.iter_mut().for_each(|place| tape.one_of(place, &Place::ALL));
     }
 }

@@ -31,13 +31,13 @@ const SAME_TIME: f64 = 1e-9;
 pub struct Controller<const N: usize> {
     context: PlanContext<N>,
     /// Accelerations sent at the communication point before.
-    slope_before: SVector<f64, N>,
+    previous_slope: SVector<f64, N>,
     discretization: Discretization,
     clock: Clock,
     grasp_time: f64,
     foreseen: Foreseen,
     /// Where the reference was expected at the end of the planned interval.
-    aim: Target,
+    planned_target: Target,
     /// How far the end of the planned interval was off the reference \[m\].
     planned_miss: Vec2,
     /// The mean moment of the present plan on the UAV, without what it gives back \[N m\]; none if it had to give up what
@@ -70,7 +70,7 @@ impl<const N: usize> Controller<N> {
                 resolver: Resolver::new(structure, parameters, dynamics.vehicle.reach()),
                 hold: ik.hold,
                 motion: Motion::constant(SVector::zeros()),
-                before: [Motion::constant(SVector::zeros()); 5],
+                earlier_motions: [Motion::constant(SVector::zeros()); 5],
                 places: qp::FREE,
                 dynamics,
                 now,
@@ -81,11 +81,11 @@ impl<const N: usize> Controller<N> {
             clock: Clock::new(ik.sample_time),
             grasp_time: parameters.payload.grasp_time,
             foreseen: Foreseen::new(parameters.reference, origin),
-            slope_before: SVector::zeros(),
+            previous_slope: SVector::zeros(),
             planned_end,
             untouched: false,
             planned_at: 0.0,
-            aim: Target { displacement: origin, ..Target::AT_REST },
+            planned_target: Target { displacement: origin, ..Target::AT_REST },
             planned_miss: Vec2::zeros(),
             lasting_moment: None,
         })
@@ -115,7 +115,7 @@ impl<const N: usize> Controller<N> {
         plan.check(t)?;
         end.situation.state.check(t)?;
         self.planned_miss = context.resolver.followed(target.displacement - end.end_effector());
-        self.aim = *target;
+        self.planned_target = *target;
         context.damping.momentum = plan.momentum;
         if plan.moment_is_met() {
             self.lasting_moment = Some(plan.moment_residual + context.owed / horizon);
@@ -124,8 +124,8 @@ impl<const N: usize> Controller<N> {
         }
         plan.admit_miss(self.planned_miss.norm());
         if self.discretization == Discretization::Exact {
-            context.before.rotate_right(1);
-            context.before[0] = plan.motion;
+            context.earlier_motions.rotate_right(1);
+            context.earlier_motions[0] = plan.motion;
         }
         context.motion = plan.motion;
         context.places = plan.places;
@@ -160,7 +160,7 @@ impl<const N: usize> Controller<N> {
         context.damping.advance(size, self.lasting_moment.is_some());
         self.clock.advance(size);
         self.untouched = false;
-        self.slope_before = context.motion.slope;
+        self.previous_slope = context.motion.slope;
         context.motion = context.motion.after(size);
         Ok(())
     }
@@ -185,19 +185,19 @@ impl<const N: usize> Memory for Controller<N> {
         // Without "..": whoever adds a field decides here whether it follows from the parameters.
         let Self {
             context,
-            slope_before,
+            previous_slope,
             discretization: _,
             clock,
             grasp_time: _,
             foreseen,
-            aim,
+            planned_target,
             planned_miss,
             lasting_moment,
             planned_end,
             untouched,
             planned_at,
         } = self;
-        pass!(tape: context, slope_before, clock, foreseen, aim, planned_miss, lasting_moment);
+        pass!(tape: context, previous_slope, clock, foreseen, planned_target, planned_miss, lasting_moment);
         pass!(tape: planned_end, untouched, planned_at);
     }
 }
@@ -230,10 +230,10 @@ impl<const N: usize> Planner for Controller<N> {
         self.foreseen.take(inputs, t, size);
         let wanted = *self.foreseen.at(now);
         if self.clock.is_due() || self.context.must_brake(&self.clock) {
-            let expected = self.aim.at(self.clock.since_plan - self.clock.horizon).displacement;
+            let expected = self.planned_target.after(self.clock.since_plan - self.clock.horizon).displacement;
             let miss = self.context.resolver.followed(wanted.displacement - self.context.now.end_effector());
             outputs.late_miss = (miss - self.planned_miss).norm();
-            self.clock.plan(size);
+            self.clock.begin_interval(size);
             self.plan(now, &wanted, expected, outputs)?;
         }
         self.write_prediction(&wanted, outputs);
@@ -246,7 +246,7 @@ impl<const N: usize> Planner for Controller<N> {
         let mut derivatives = OutputDerivatives {
             reference_velocity: self.foreseen.acceleration(t),
             predicted_end_effector: self.context.end_effector_velocity(now, now.base()),
-            predicted_velocity: dynamics.at_end(now, &self.slope_before, &Load::NONE).acceleration,
+            predicted_velocity: dynamics.at_end(now, &self.previous_slope, &Load::NONE).acceleration,
             ..OutputDerivatives::default()
         };
         derivatives.predicted_position[..N].copy_from_slice(now.state.rate.as_slice());

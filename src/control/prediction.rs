@@ -17,12 +17,12 @@ pub(super) struct Prediction<const N: usize> {
     /// are those of just before, masses those of just after.
     pub carried: f64,
     /// The integration to here, of which nothing is remembered: kept for its room, which costs a tenth of a step to clear.
-    pub way: Carried<N>,
+    pub integration: Carried<N>,
 }
 
 impl<const N: usize> Memory for Prediction<N> {
     fn pass(&mut self, tape: &mut Tape<'_>) {
-        let Self { situation, carried, way: _ } = self;
+        let Self { situation, carried, integration: _ } = self;
         pass!(tape: situation, carried);
     }
 }
@@ -30,7 +30,7 @@ impl<const N: usize> Memory for Prediction<N> {
 impl<const N: usize> Prediction<N> {
     /// At rest.
     pub fn at_rest(situation: Situation<N>) -> Self {
-        Self { carried: 0.0, way: Carried::none(&situation.node), situation }
+        Self { carried: 0.0, integration: Carried::none(&situation.node), situation }
     }
 
     /// Its situation is the end of a step: the angular momentum follows from it.

@@ -18,7 +18,7 @@
 //! (Y.-Y. Chang and R. W. Cottle, Mathematical Programming 18 (1980) 127-137), and after many of them, what they are
 //! about is rounding.
 //!
-//! Equalities that nearly depend on each other (1e-7 of the longest row is left) are turned until their rows are
+//! Equalities that nearly depend on each other (1e-7 of the longest row is left) are rotated until their rows are
 //! orthogonal, and the weak rows come after the strong ones; what is left of 1e-11 and less is left out. An equality is
 //! satisfied if it is off by less than 3e-10 of the sum of its terms' sizes. No memory is allocated.
 
@@ -154,8 +154,8 @@ pub fn solve(problem: &Problem, guess: &Places) -> Solution {
 #[cold]
 #[inline(never)]
 fn solve_in_levels(problem: &Problem, guess: &Places, nothing: f64) -> Solution {
-    let (turned, levels) = Levels::orthogonal(&problem.equalities, nothing);
-    let mut search = Search::new(problem, &turned, &levels, guess);
+    let (rotated, levels) = Levels::orthogonal(&problem.equalities, nothing);
+    let mut search = Search::new(problem, &rotated, &levels, guess);
     let outcome = search.descend();
     Solution { x: search.x, places: search.places(), outcome }
 }

@@ -29,10 +29,10 @@ use crate::parameters::{MAX_COORDINATES, Parameters, PathAxes, Resolution, Struc
 pub(super) struct Interval<'a, const N: usize> {
     /// Where it begins.
     pub beginning: &'a Situation<N>,
-    /// The rates before \[rad/s, m/s\].
-    pub before: &'a SVector<f64, N>,
+    /// The rates of the interval before this one \[rad/s, m/s\].
+    pub previous_rate: &'a SVector<f64, N>,
     /// How long those were held \[s\]: what the limits of acceleration allow grows with it.
-    pub past: f64,
+    pub previous_duration: f64,
     /// How long the rates may be held \[s\]: that they must not lead past a stop in this time.
     pub hold: f64,
     /// Which rates will probably be at their limits.
@@ -199,12 +199,21 @@ impl Resolver {
 
     /// What the limits allow. What balances the arm goes by a law of its own; its rate is fixed.
     fn allowed<const N: usize>(&self, vehicle: &Vehicle<N>, interval: &Interval<'_, N>) -> Allowed {
-        let &Interval { beginning, before, past, hold, .. } = interval;
-        let (position, before) = (beginning.state.position.as_slice(), before.as_slice());
-        let mut allowed = Allowed::new(&self.limits[..self.links], position, before, [past, hold]);
+        let &Interval { beginning, previous_rate, previous_duration, hold, .. } = interval;
+        let (position, previous_rate) = (beginning.state.position.as_slice(), previous_rate.as_slice());
+        let mut allowed = Allowed::new(&self.limits[..self.links], position, previous_rate, [previous_duration, hold]);
         if let Some(target) = counterweight::balance(vehicle, beginning) {
             let i = N - 1;
-            allowed.fix(i, self.limits[i].approach(target, position[i], before[i], [past, hold], self.balancing_time));
+            allowed.fix(
+                i,
+                self.limits[i].approach(
+                    target,
+                    position[i],
+                    previous_rate[i],
+                    [previous_duration, hold],
+                    self.balancing_time,
+                ),
+            );
         }
         allowed
     }

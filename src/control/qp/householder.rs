@@ -1,8 +1,8 @@
-//! An orthogonal change of coordinates, made of Householder reflections, that turns rows into single coordinates.
+//! An orthogonal change of coordinates, made of Householder reflections, that map rows to single coordinates.
 
 use super::{MAX_VARIABLES, Vector, product};
 
-/// Reflections 1 - `scale` v v^T, one after the other. Each turns what is left of a row into one coordinate, the pivot,
+/// Reflections 1 - `scale` v v^T, one after the other. Each maps what is left of a row to one coordinate, the pivot,
 /// and lets the pivots before alone. Where one coordinate is left, it is the pivot without a reflection.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Householder {
@@ -48,13 +48,13 @@ impl Householder {
         &self.pivots[..self.count]
     }
 
-    /// What no pivot has of the turned `row`.
+    /// What no pivot has of the reflected `row`.
     #[inline]
     pub fn left(&self, row: &Vector) -> Vector {
         std::array::from_fn(|i| row[i] * self.left[i])
     }
 
-    /// One more reflection: what is left of the turned `row`, of the length `norm`, becomes one coordinate. The pivot
+    /// One more reflection: what is left of the reflected `row`, of the length `norm`, becomes one coordinate. The pivot
     /// and what it is.
     pub fn add(&mut self, row: &Vector, norm: f64) -> (usize, f64) {
         let pivot = self.left.iter().position(|left| *left > 0.0).unwrap_or(0);
@@ -85,7 +85,7 @@ impl Householder {
         &self.reflections[..if self.remaining == 0 { self.count.saturating_sub(1) } else { self.count }]
     }
 
-    /// Turns `y` by the last reflection alone.
+    /// Applies the last reflection to `y` alone.
     pub fn last(&self, y: &mut Vector) {
         if self.remaining > 0 {
             self.reflections().last().into_iter().for_each(|reflection| reflect(reflection, y));

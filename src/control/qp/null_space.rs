@@ -152,7 +152,7 @@ impl NullSpace {
         }
     }
 
-    /// What the row with these turned `coefficients` has at `y` because of the equalities.
+    /// What the row with these reflected `coefficients` has at `y` because of the equalities.
     #[inline]
     pub fn seen(&self, coefficients: &Vector, y: &Vector) -> f64 {
         self.pivots().iter().map(|pivot| coefficients[*pivot] * y[*pivot]).sum()

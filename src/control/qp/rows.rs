@@ -126,7 +126,7 @@ impl Levels {
     /// All at once.
     pub const ONE: Self = Self { ends: [MAX_ROWS; MAX_ROWS], weights: [1.0; MAX_ROWS], blur: [1.0; MAX_ROWS] };
 
-    /// The same equations, turned among each other until their rows are orthogonal: |E x - e| stays what it is. The
+    /// The same equations, rotated among each other until their rows are orthogonal: |E x - e| stays what it is. The
     /// long rows come first, each level is scaled to length 1, and rows of which this share is left are left out. The method is
     /// that of one-sided Jacobi rotations (M. R. Hestenes, J. SIAM 6 (1958) 51-90).
     #[cold]
@@ -141,7 +141,7 @@ impl Levels {
                 }
             }
         }
-        let (mut turned, mut levels) = (Rows::default(), Self::ONE);
+        let (mut rotated, mut levels) = (Rows::default(), Self::ONE);
         let (mut begin, mut unit, mut weight) = (0, 0.0, 1.0);
         for k in 0..rows.count {
             let squares = rows.coefficients.map(|row| product(&row, &row));
@@ -153,10 +153,10 @@ impl Levels {
                 continue;
             }
             if k == 0 || length <= WEAK * unit {
-                (begin, unit) = (turned.count, length);
+                (begin, unit) = (rotated.count, length);
                 weight *= if k == 0 { 1.0 } else { NEXT };
             }
-            let Rows { count, coefficients, values } = &mut turned;
+            let Rows { count, coefficients, values } = &mut rotated;
             coefficients[*count] = row.map(|coefficient| coefficient / unit);
             values[*count] = rows.values[longest] / unit;
             levels.blur[*count] = blur.max(nothing / NOTHING);
@@ -164,12 +164,12 @@ impl Levels {
             *count += 1;
             levels.ends[begin..*count].fill(*count);
         }
-        (turned, levels)
+        (rotated, levels)
     }
 }
 
 impl Rows {
-    /// Turns the rows `a` and `b` until they are orthogonal.
+    /// Rotates the rows `a` and `b` until they are orthogonal.
     fn rotate(&mut self, a: usize, b: usize, origins: &mut [f64; MAX_ROWS]) {
         let (first, second) = (self.coefficients[a], self.coefficients[b]);
         let (p, q, mixed) = (product(&first, &first), product(&second, &second), product(&first, &second));
@@ -180,11 +180,11 @@ impl Rows {
         let tangent = zeta.signum() / (zeta.abs() + (1.0 + zeta * zeta).sqrt());
         let cosine = (1.0 + tangent * tangent).sqrt().recip();
         let sine = cosine * tangent;
-        let turn = |x: f64, y: f64| (cosine * x - sine * y, sine * x + cosine * y);
+        let rotated = |x: f64, y: f64| (cosine * x - sine * y, sine * x + cosine * y);
         for i in 0..MAX_VARIABLES {
-            (self.coefficients[a][i], self.coefficients[b][i]) = turn(first[i], second[i]);
+            (self.coefficients[a][i], self.coefficients[b][i]) = rotated(first[i], second[i]);
         }
-        (self.values[a], self.values[b]) = turn(self.values[a], self.values[b]);
+        (self.values[a], self.values[b]) = rotated(self.values[a], self.values[b]);
         let (c, s) = (cosine * cosine, sine * sine);
         (origins[a], origins[b]) = (c * origins[a] + s * origins[b], s * origins[a] + c * origins[b]);
     }

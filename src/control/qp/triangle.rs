@@ -6,7 +6,7 @@ use super::MAX_ROWS;
 pub(super) type Short = [f64; MAX_ROWS];
 
 /// All rows so far, ridge included, as a triangle R with ones on its diagonal, the weights of its rows, and the
-/// right-hand side turned likewise (W. M. Gentleman, J. Inst. Maths Applics 12 (1973) 329-336).
+/// right-hand side rotated likewise (W. M. Gentleman, J. Inst. Maths Applics 12 (1973) 329-336).
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Triangle {
     dimension: usize,
@@ -41,11 +41,11 @@ impl Triangle {
             let (old, new) = (self.weights[i] / total, weight * first / total);
             self.weights[i] = total;
             weight *= old;
-            let turn = |upper: &mut f64, rest: &mut f64| {
+            let rotate = |upper: &mut f64, rest: &mut f64| {
                 (*upper, *rest) = (old * *upper + new * *rest, *rest - first * *upper);
             };
-            self.factor[i].iter_mut().zip(&mut row).skip(i + 1).for_each(|(upper, rest)| turn(upper, rest));
-            turn(&mut self.right[i], &mut value);
+            self.factor[i].iter_mut().zip(&mut row).skip(i + 1).for_each(|(upper, rest)| rotate(upper, rest));
+            rotate(&mut self.right[i], &mut value);
         }
     }
 
