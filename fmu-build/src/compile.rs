@@ -19,9 +19,6 @@ use cross::{Target, Toolchain};
 
 /// Profile in the workspace's `Cargo.toml` for what goes into an FMU.
 const PROFILE: &str = "fmu";
-/// Less is copied into its callers than usual (225), which keeps the controller's library below a megabyte. Loops over a
-/// few links gain no time from vectors of their own, and unrolled they are longer: 6 kB.
-const SMALL: &str = "-Cllvm-args=-inline-threshold=36 -vectorize-loops=false -unroll-threshold=125";
 /// Separates the flags in `CARGO_ENCODED_RUSTFLAGS`.
 const FLAG_SEPARATOR: &str = "\u{1f}";
 
@@ -124,14 +121,10 @@ fn target_folder(workspace: &Path) -> PathBuf {
     usual.join("fmu")
 }
 
-/// The caller's compiler flags, the one for small libraries, and those that keep the building machine's paths out of
+/// The caller's compiler flags, and those that keep the building machine's paths out of
 /// the libraries.
 fn flags(workspace: &Path) -> Result<OsString> {
     let mut flags = given_flags();
-    if !flags.is_empty() {
-        flags.push(FLAG_SEPARATOR);
-    }
-    flags.push(SMALL);
     // Where several prefixes fit, the last one counts: a cargo home inside the workspace keeps its own name.
     let mut prefixes = vec![(workspace.to_owned(), "/uam")];
     if let Some(home) = cargo_home() {
@@ -141,7 +134,9 @@ fn flags(workspace: &Path) -> Result<OsString> {
     }
     prefixes.push((sysroot(workspace)?.join("lib/rustlib/src/rust"), "/rust"));
     for (prefix, name) in prefixes {
-        flags.push(FLAG_SEPARATOR);
+        if !flags.is_empty() {
+            flags.push(FLAG_SEPARATOR);
+        }
         flags.push("--remap-path-prefix=");
         flags.push(prefix);
         flags.push("=");

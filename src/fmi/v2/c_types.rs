@@ -3,7 +3,7 @@
 //! Enumerations that come *from* the host are plain integers here: a value outside of a Rust
 //! enumeration would be undefined behaviour before it could be refused.
 
-use libc::{c_char, c_int, c_uint, c_void};
+use core::ffi::{c_char, c_int, c_uint, c_void};
 
 /// `fmi2Component`: what the host holds of an instance.
 pub type Component = *mut c_void;
