@@ -33,7 +33,7 @@ impl<const N: usize> PlanContext<N> {
         let (ahead, carried) = self.ahead(t, horizon, end);
         let response = self.response(&ahead.node, ahead.rotation, &ahead.state);
         let problem = self.at_end(&response, ahead.rotation, velocity, self.moment_task(&response, carried), horizon);
-        let resolved = self.solve(&problem, clock, &self.places, Aims::All);
+        let resolved = self.solve(&problem, clock, None, Aims::All);
         let motion = self.accelerating_to(&resolved.rate, clock);
         self.accelerated(&ahead, &response, &motion, [t, horizon], end);
         Plan {

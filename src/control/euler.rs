@@ -27,7 +27,7 @@ impl<const N: usize> PlanContext<N> {
             caution: self.damping.caution(),
             moment: self.moment_task(&response, carried),
         };
-        let resolved = self.solve(&problem, clock, &self.places, Aims::All);
+        let resolved = self.solve(&problem, clock, None, Aims::All);
         let rate = resolved.rate;
         self.end_explicit(here, &response, &rate, &(rate * horizon), [t, horizon], end);
         let motion = match self.hold {

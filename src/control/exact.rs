@@ -159,7 +159,7 @@ impl<const N: usize> PlanContext<N> {
         let horizon = clock.horizon;
         let accelerates = self.resolver.accelerates();
         let cancels = aims == Aims::All && self.resolver.cancels_moment();
-        let mut plan = Plan { places: self.places, ..Plan::moving(self.extrapolated_motion(horizon)) };
+        let mut plan = Plan { places: self.method_state.places, ..Plan::moving(self.extrapolated_motion(horizon)) };
         // The impulse that the rates in question should exert on the UAV, as far as all is linear.
         let mut linear = 0.0;
         let mut nearest: Option<(f64, Plan<N>)> = None;
@@ -192,7 +192,7 @@ impl<const N: usize> PlanContext<N> {
                 moment,
             };
             let at_end = || self.at_end(&response, *rotation, target.velocity, moment, horizon);
-            let solve = |asked: &Problem<N>| self.solve(asked, clock, &plan.places, aims);
+            let solve = |asked: &Problem<N>| self.solve(asked, clock, Some(&plan.places), aims);
             let (resolved, motion) = if accelerates {
                 let resolved = solve(&at_end());
                 (resolved, self.accelerating_to(&resolved.rate, clock))

@@ -5,10 +5,10 @@ use nalgebra::SVector;
 use super::clock::Clock;
 use super::damping::MomentDamping;
 use super::prediction::Prediction;
-use super::resolution::{Aims, Interval, Problem, Resolved, Resolver, Task};
+use super::resolution::{Aims, Interval, MethodState, Problem, Resolved, Resolver, Task};
 use super::response::Response;
 use crate::bytes::{Memory, Tape};
-use crate::control::qp::{Place, Places};
+use crate::control::qp::Places;
 use crate::mechanics::dynamics::{Dynamics, Motion, Node, Situation, State};
 use crate::mechanics::momentum::Twist;
 use crate::mechanics::planar::{Rotation, Vec2};
@@ -27,8 +27,8 @@ pub(super) struct PlanContext<const N: usize> {
     pub motion: Motion<N>,
     /// Motions of the five plans before, the last one first.
     pub earlier_motions: [Motion<N>; 5],
-    /// Which rates are at their limits.
-    pub places: Places,
+    /// What the method remembers.
+    pub method_state: MethodState,
     /// Damping of the free motion.
     pub damping: MomentDamping,
     /// The impulse that the UAV has got beyond what was wanted: plans held for other times than they were made for
@@ -52,13 +52,14 @@ impl<const N: usize> PlanContext<N> {
     }
 
     /// The rates that the method chooses for the interval of the `clock`, which begins now. `guess`: which of them will
-    /// probably be at their limits; `aims`: whether more counts than the path.
-    pub fn solve(&self, problem: &Problem<N>, clock: &Clock, guess: &Places, aims: Aims) -> Resolved<N> {
+    /// probably be at their limits, if an iteration has told; `aims`: whether more counts than the path.
+    pub fn solve(&self, problem: &Problem<N>, clock: &Clock, guess: Option<&Places>, aims: Aims) -> Resolved<N> {
         let interval = Interval {
             beginning: &self.now.situation,
             previous_rate: &self.motion.rate,
             previous_duration: clock.previous_duration,
             hold: clock.longest_hold(),
+            state: &self.method_state,
             guess,
             aims,
         };
@@ -108,9 +109,8 @@ impl<const N: usize> PlanContext<N> {
 impl<const N: usize> Memory for PlanContext<N> {
     fn pass(&mut self, tape: &mut Tape<'_>) {
         // Without "..": whoever adds a field decides here whether it follows from the parameters.
-        let Self { dynamics, resolver: _, hold: _, now, motion, earlier_motions, places, damping, owed } = self;
+        let Self { dynamics, resolver: _, hold: _, now, motion, earlier_motions, method_state, damping, owed } = self;
         dynamics.pass_gains(tape);
-        pass!(tape: now, motion, earlier_motions, damping, owed);
-        places.iter_mut().for_each(|place| tape.one_of(place, &Place::ALL));
+        pass!(tape: now, motion, earlier_motions, method_state, damping, owed);
     }
 }

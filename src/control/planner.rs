@@ -11,11 +11,10 @@ use super::foreseen::Foreseen;
 use super::plan::Plan;
 use super::plan_context::PlanContext;
 use super::prediction::Prediction;
-use super::resolution::Resolver;
+use super::resolution::{MethodState, Resolver};
 use super::{Inputs, OutputDerivatives, Outputs, Planner};
 use crate::autopilot::AutopilotMode;
 use crate::bytes::{Memory, Tape};
-use crate::control::qp;
 use crate::error::Result;
 use crate::mechanics::dynamics::{Dynamics, Load, Motion};
 use crate::mechanics::planar::Vec2;
@@ -71,7 +70,7 @@ impl<const N: usize> Controller<N> {
                 hold: ik.hold,
                 motion: Motion::constant(SVector::zeros()),
                 earlier_motions: [Motion::constant(SVector::zeros()); 5],
-                places: qp::FREE,
+                method_state: MethodState::START,
                 dynamics,
                 now,
                 damping: MomentDamping::new(ik),
@@ -128,7 +127,7 @@ impl<const N: usize> Controller<N> {
             context.earlier_motions[0] = plan.motion;
         }
         context.motion = plan.motion;
-        context.places = plan.places;
+        context.method_state.accept(plan.places);
         (self.planned_at, self.untouched) = (t, true);
         outputs.status = plan.status;
         outputs.min_singular_value = plan.min_singular_value;

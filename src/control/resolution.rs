@@ -8,9 +8,12 @@ mod gradient;
 mod least_squares;
 mod pseudo_inverse;
 mod singular_start;
+mod state;
 mod weights;
 
 use nalgebra::SVector;
+
+pub(super) use state::MethodState;
 
 pub use pseudo_inverse::{PATH_THRESHOLD, Problem, PseudoInverse, Task};
 
@@ -18,6 +21,7 @@ use weights::Weights;
 
 use super::Status;
 use super::limits::{Allowed, Limits};
+use super::method::Traits;
 use crate::control::qp::{self, MAX_VARIABLES, Outcome, Places, Rows};
 use crate::mechanics::dynamics::Situation;
 use crate::mechanics::planar::{Vec2, vec2};
@@ -35,8 +39,10 @@ pub(super) struct Interval<'a, const N: usize> {
     pub previous_duration: f64,
     /// How long the rates may be held \[s\]: that they must not lead past a stop in this time.
     pub hold: f64,
-    /// Which rates will probably be at their limits.
-    pub guess: &'a Places,
+    /// What the method remembers of the previous plan.
+    pub state: &'a MethodState,
+    /// Which rates will probably be at their limits, if an iteration of this plan has told; else the previous plan tells.
+    pub guess: Option<&'a Places>,
     /// What counts.
     pub aims: Aims,
 }
@@ -69,6 +75,7 @@ pub(super) struct Resolved<const N: usize> {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Resolver {
     kind: Resolution,
+    traits: Traits,
     axes: PathAxes,
     links: usize,
     /// Whether there is something that balances the arm, and the method does not move it.
@@ -96,6 +103,7 @@ impl Resolver {
         let kind = parameters.ik.resolution;
         let mut resolver = Self {
             kind,
+            traits: kind.traits(),
             axes: parameters.ik.path_axes,
             links: structure.links,
             holds_balancer: structure.balance.moved_by().is_some_and(|mover| mover != kind),
@@ -125,22 +133,22 @@ impl Resolver {
 
     /// Whether the method asks for rates without moment on the UAV.
     pub fn cancels_moment(&self) -> bool {
-        matches!(self.kind, Resolution::ExtendedJacobian | Resolution::LeastSquares | Resolution::AccelerationLevel)
+        self.traits.cancels_moment
     }
 
     /// Whether something beside the path decides about the rates of a redundant arm.
     pub fn has_second_task(&self) -> bool {
-        self.kind != Resolution::MinimumNorm
+        self.traits.has_second_task
     }
 
     /// Whether the method knows limits of accelerations and positions.
     pub fn limits_accelerations(&self) -> bool {
-        self.kind == Resolution::LeastSquares
+        self.traits.limits_accelerations
     }
 
     /// Whether rates do not jump: accelerations are chosen.
     pub fn accelerates(&self) -> bool {
-        self.kind == Resolution::AccelerationLevel
+        self.traits.accelerates
     }
 
     /// The part of the vector `v` of the inertial frame that belongs to the path.

@@ -79,7 +79,7 @@ impl Resolver {
         let wanted_rate = &wanted.rate.as_slice()[..links];
         let program =
             program(path.as_slice(), mean.as_slice(), wanted_rate, &allowed, [self.rate_penalty, problem.interval]);
-        let found = qp::solve(&program, interval.guess);
+        let found = qp::solve(&program, interval.guess.unwrap_or(&interval.state.places));
         rate.as_mut_slice()[..links].copy_from_slice(&found.x[..links]);
         resolved.momentum = problem.moment.row.dot(&rate);
         let moment = problem.moment.value - resolved.momentum;
