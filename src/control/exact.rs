@@ -129,7 +129,6 @@ impl<const N: usize> PlanContext<N> {
     /// The better one of the plan without second task and of another one, which leaves the end effector as far off the
     /// path as is said with it \[m\].
     #[cold]
-    #[inline(never)]
     fn plan_path_alone(
         &self,
         goal: Goal<'_>,
@@ -240,7 +239,6 @@ impl<const N: usize> PlanContext<N> {
     }
 
     /// The sum of the earlier motions with these weights, the last one first.
-    #[inline(never)]
     fn combined(&self, weights: [f64; 5]) -> Motion<N> {
         let mut sum = Motion::constant(SVector::zeros());
         for (motion, weight) in self.earlier_motions.iter().zip(weights) {
@@ -301,7 +299,6 @@ impl<const N: usize> PlanContext<N> {
 
 /// How much the `change` of a motion changes in an interval of length `horizon`: its way, and the last rates times the
 /// interval \[rad, m\].
-#[inline(never)]
 fn extent<const N: usize>(change: &Motion<N>, horizon: f64) -> f64 {
     change.way(horizon).norm() + change.rate_after(horizon).norm() * horizon
 }

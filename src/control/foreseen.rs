@@ -47,7 +47,6 @@ impl Foreseen {
         &self.target
     }
 
-    #[inline(never)]
     fn work_out(&mut self, t: f64) {
         let Self { reference, origin, external, time, target } = self;
         if reference.kind == ReferenceKind::External {

@@ -88,7 +88,6 @@ impl Limits {
     /// time `previous_duration` \[s\] and the next one may be held for `hold` \[s\]: as fast as the limits allow, and at the
     /// end exponentially with the time constant `time` \[s\].
     #[must_use]
-    #[inline(never)]
     pub fn approach(
         &self,
         target: f64,
@@ -133,7 +132,6 @@ impl Allowed {
     /// For coordinates with these `limits`, from `position` and after the rates `previous_rate`; no motion of others. The
     /// `times` are those of [`Limits::window`].
     #[must_use]
-    #[inline(never)]
     pub fn new(limits: &[Limits], position: &[f64], previous_rate: &[f64], times: [f64; 2]) -> Self {
         let mut allowed = Self { least: [0.0; MAX_VARIABLES], most: [0.0; MAX_VARIABLES], returning: false };
         for (i, (limits, (position, previous_rate))) in

@@ -152,7 +152,6 @@ pub fn solve(problem: &Problem, guess: &Places) -> Solution {
 /// [`solve`] for equalities that nearly depend on each other; those of which less than the share `nothing` is left
 /// beside the others are left out.
 #[cold]
-#[inline(never)]
 fn solve_in_levels(problem: &Problem, guess: &Places, nothing: f64) -> Solution {
     let (rotated, levels) = Levels::orthogonal(&problem.equalities, nothing);
     let mut search = Search::new(problem, &rotated, &levels, guess);

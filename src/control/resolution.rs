@@ -197,7 +197,6 @@ impl Resolver {
     /// Near a singular configuration, where the path is damped: the smallest rates along it, and of the `preferred` ones
     /// what moves the end effector in no direction, the less the nearer.
     #[cold]
-    #[inline(never)]
     fn near_singular<const N: usize>(&self, problem: &Problem<N>, preferred: &SVector<f64, N>) -> PseudoInverse<N> {
         let found = self.along_path(problem, false);
         let nearness = found.min_singular_value / (PATH_THRESHOLD * self.reach);
@@ -289,7 +288,6 @@ impl Resolver {
     /// Rates within the limits where the `found` ones are not: of those that move the end effector alike the nearest ones,
     /// and if there are none, those that move it most nearly alike.
     #[cold]
-    #[inline(never)]
     fn path_within_limits<const N: usize>(
         &self,
         problem: &Problem<N>,

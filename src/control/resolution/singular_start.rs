@@ -42,7 +42,6 @@ impl Resolver {
     }
 
     #[cold]
-    #[inline(never)]
     fn kick<const N: usize>(
         &self,
         vehicle: &Vehicle<N>,

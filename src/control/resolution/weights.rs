@@ -43,7 +43,6 @@ impl Weights {
 const NOTHING: f64 = 1e-10;
 
 #[cold]
-#[inline(never)]
 fn scale(joints: &[Joint]) -> SVector<f64, MAX_COORDINATES> {
     #[allow(clippy::cast_precision_loss)] // a few links
     let mean = joints.iter().map(|joint| 1.0 / joint.weight).sum::<f64>() / joints.len() as f64;
@@ -51,7 +50,6 @@ fn scale(joints: &[Joint]) -> SVector<f64, MAX_COORDINATES> {
 }
 
 /// For the largest number of coordinates: the library holds one copy.
-#[inline(never)]
 fn weighted(
     scale: &SVector<f64, MAX_COORDINATES>,
     mut problem: Problem<MAX_COORDINATES>,
