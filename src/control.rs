@@ -1,4 +1,23 @@
 //! Inverse kinematics from one communication point to the next.
+//!
+//! A joint rate on its way, in the order in which the files hand it on:
+//!
+//! 1. `foreseen` says where and how fast the end effector is to be at an instant: from `crate::reference`, or by
+//!    `external`, from what the host gives.
+//! 2. `clock` says whether a plan is due and how long the interval is for which it is made.
+//! 3. `planner` makes a plan then, by the chosen discretization: `exact` integrates the interval and iterates until the
+//!    end effector is on the reference at its end; `euler` makes the explicit step of the thesis; `acceleration` does so
+//!    for accelerations.
+//! 4. These start from the `plan_context`: the laws, the predicted present (`prediction`), the motion sent so far, and the
+//!    damping of the free motion (`damping`). `response` gives the generalized and the extended Jacobian there, and from
+//!    it follows a linear [`Problem`]: the wanted velocity of the end effector, and the wanted moment.
+//! 5. `resolution` chooses rates that solve it; each method stands in a file of its own below it, and `method` has one row
+//!    for each with what the other files must know of it. Where limits bind (`limits`), a quadratic program decides ([`qp`]).
+//! 6. The rates become a `plan` for the interval, with what had to give way. The planner writes it to the [`Outputs`], and
+//!    predicts with it where the system is at the next communication point.
+//!
+//! A plan is a function of the plan context. State that lasts from one plan to the next is held by the planner and the
+//! plan context; what a method remembers is its `MethodState`. All of it is passed as [`Memory`].
 
 mod acceleration;
 mod clock;

@@ -26,7 +26,8 @@ impl<const N: usize> Response<N> {
     /// `held`: of an arm whose last coordinate is kept at rest.
     #[must_use]
     pub fn new(dynamics: &Dynamics<N>, node: &Node<N>, rotation: Rotation, momentum: Twist, held: bool) -> Self {
-        // The compiler writes it twice: with models that it knows, it takes two thirds of the instructions.
+        // Two copies: where the compiler knows the models, it needs two thirds of the instructions. A step of
+        // `minimum_norm` with `euler` takes 5 % fewer.
         if dynamics.neglects_nothing() {
             Self::written(dynamics, node, rotation, momentum, held)
         } else {

@@ -130,7 +130,6 @@ impl Levels {
     /// long rows come first, each level is scaled to length 1, and rows of which this share is left are left out. The method is
     /// that of one-sided Jacobi rotations (M. R. Hestenes, J. SIAM 6 (1958) 51-90).
     #[cold]
-    #[inline(never)]
     pub fn orthogonal(rows: &Rows, nothing: f64) -> (Rows, Self) {
         let mut rows = *rows;
         let mut origins = rows.coefficients.map(|row| product(&row, &row));

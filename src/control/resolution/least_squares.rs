@@ -94,8 +94,7 @@ impl Resolver {
 }
 
 /// The quadratic program for the rates of the joints: on the `path`, column by column, and with the `mean` moment
-/// per rate as the `wanted` ones, as far as is `allowed` in an interval of length `interval` \[s\]. The same for each number of coordinates, so that the
-/// library holds one copy.
+/// per rate as the `wanted` ones, as far as is `allowed` in an interval of length `interval` \[s\].
 fn program(
     path: &[f64],
     mean: &[f64],

@@ -195,9 +195,8 @@ impl Problem<MAX_COORDINATES> {
         self.beside_path(&self.moment.row, axes).norm() / self.moment.row.norm().max(f64::MIN_POSITIVE)
     }
 
-    /// [`Problem::resolve`] wherever the arm is. For the largest number of coordinates: the library holds one copy.
+    /// [`Problem::resolve`] wherever the arm is.
     #[cold]
-    #[inline(never)]
     fn damped(&self, gram: &Gram, without_moment: bool, thresholds: &Thresholds) -> PseudoInverse<MAX_COORDINATES> {
         let Self { velocity, interval, caution, moment: task, .. } = self;
         // The directions in which the arm moves easily and hardly: each is damped on its own.
