@@ -10,7 +10,7 @@ use common::model::{Coordinates, Model, angular_momentum, momentum};
 use common::run::Run;
 use nalgebra::{DMatrix, Matrix2, Vector2, Vector3};
 use uam::control;
-use uam::parameters::{Balance, BaseModel, Discretization, Resolution};
+use uam::parameters::{Balance, BaseModel, Discretization, MAX_COORDINATES, Resolution};
 use uam::scenarios::{default_parameters, find};
 use uam::{Parameters, Structure};
 
@@ -186,7 +186,7 @@ fn interpolated_rates_err_by_a_micrometre_per_second() {
     let mut commands = control::Outputs::default();
     let mut planner = control::new(scenario.structure, &parameters, &mut commands).unwrap();
     let mut plant = Run::new(scenario.structure, parameters.clone());
-    let (size, mut before) = (scenario.step, [0.0; 7]);
+    let (size, mut before) = (scenario.step, [0.0; MAX_COORDINATES]);
     let (mut velocity_error, mut position_error) = (0.0_f64, 0.0_f64);
     for _ in 0..5000 {
         let (now, t) = (commands.rate_command, plant.time);

@@ -8,7 +8,7 @@ use common::assert_close;
 use common::coupling::Coupling;
 use uam::control::Status;
 use uam::parameters::defaults::default_parameters;
-use uam::parameters::{Discretization, Hold, Resolution};
+use uam::parameters::{Discretization, Hold, MAX_COORDINATES, Resolution};
 use uam::{Parameters, Structure};
 
 const RESOLUTIONS: [Resolution; 3] = [Resolution::MinimumNorm, Resolution::Gradient, Resolution::ExtendedJacobian];
@@ -33,7 +33,7 @@ struct Seen {
 fn run(parameters: &Parameters, step: f64, duration: f64) -> Seen {
     let mut coupling = Coupling::new(Structure::DEFAULT, parameters);
     let mut seen = Seen::default();
-    let (mut last, mut slope) = ([0.0; 7], [0.0; 7]);
+    let (mut last, mut slope) = ([0.0; MAX_COORDINATES], [0.0; MAX_COORDINATES]);
     for k in 0..(duration / step).round() as u64 {
         let (rate, acceleration) = (coupling.commands.rate_command, coupling.commands.acceleration_command);
         let time = k as f64 * step;

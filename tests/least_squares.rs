@@ -10,7 +10,7 @@ use common::{assert_close, cases};
 use proptest::prelude::*;
 use uam::control::Status;
 use uam::parameters::defaults::default_parameters;
-use uam::parameters::{Balance, BaseModel, Discretization, Resolution};
+use uam::parameters::{Balance, BaseModel, Discretization, MAX_COORDINATES, Resolution};
 use uam::reference::{Circle, ReferenceKind};
 use uam::{Parameters, Structure};
 
@@ -88,7 +88,7 @@ proptest! {
         };
         let step = random.between(1e-3, 1e-2);
         let mut coupling = Coupling::new(structure, &p);
-        let mut before = [0.0; 7];
+        let mut before = [0.0; MAX_COORDINATES];
         for _ in 0..80 {
             let rates = coupling.commands.rate_command;
             let from = coupling.plant.outputs.position;
@@ -269,12 +269,12 @@ fn the_highest_price_does_not_make_rates_chatter() {
             (ik.resolution, ik.discretization, ik.rate_penalty) = (Resolution::LeastSquares, discretization, price);
             ik.moment_damping = 0.0;
             let mut coupling = Coupling::new(Structure::DEFAULT, &parameters);
-            let (mut before, mut last) = (coupling.commands.rate_command, [0.0; 7]);
+            let (mut before, mut last) = (coupling.commands.rate_command, [0.0; MAX_COORDINATES]);
             for _ in 0..3000 {
                 coupling.step(1e-3);
                 let rates = coupling.commands.rate_command;
                 assert!(matches!(coupling.commands.status, Status::Ok | Status::Inexact));
-                let changes: [f64; 7] = std::array::from_fn(|i| rates[i] - before[i]);
+                let changes: [f64; MAX_COORDINATES] = std::array::from_fn(|i| rates[i] - before[i]);
                 for (change, last) in changes.iter().zip(last) {
                     assert!(change.abs() < 0.1, "{change} at {}", coupling.plant.time);
                     let turns = change * last < 0.0 && change.abs().min(last.abs()) > 0.02;
@@ -337,7 +337,7 @@ fn the_counterweight_does_not_chatter() {
     p.reference.legs[0] = uam::reference::Leg { duration: 1.5, ramp: 0.5, dx: 0.11, dy: -0.05, ..p.reference.legs[0] };
     (p.payload.grasp_time, p.support.stiffness) = (-1.0, 0.0);
     let mut coupling = Coupling::new(structure, &p);
-    let (mut before, mut total) = ([0.0; 7], 0.0);
+    let (mut before, mut total) = ([0.0; MAX_COORDINATES], 0.0);
     for i in 0..3000 {
         coupling.step(1e-3);
         let rates = coupling.commands.rate_command;

@@ -60,9 +60,10 @@ impl Foreseen {
 
     /// The wanted acceleration at time `t`, the present one \[m/s2\].
     pub fn acceleration(&self, t: f64) -> Vec2 {
-        match self.reference.kind {
-            ReferenceKind::External => self.external.acceleration(),
-            ReferenceKind::Path | ReferenceKind::Circle => self.reference.at(t).acceleration,
+        if self.reference.kind == ReferenceKind::External {
+            self.external.acceleration()
+        } else {
+            self.reference.at(t).acceleration
         }
     }
 }
