@@ -239,14 +239,14 @@ impl Entry<'_> {
             Kind::Real { bounds, at, unit } => {
                 let number = self.number().filter(|&number| bounds.admit(number));
                 let expected = || format!("{bounds} [{}]", unit.name);
-                *at(parameters, variable.index) = number.ok_or_else(|| self.wrong(&expected()))?;
+                *at.get_mut(parameters) = number.ok_or_else(|| self.wrong(&expected()))?;
             }
             Kind::Boolean { at } => match self.value {
-                DeValue::Boolean(value) => *at(parameters, variable.index) = *value,
+                DeValue::Boolean(value) => *at.get_mut(parameters) = *value,
                 _ => return Err(self.wrong("true or false")),
             },
             Kind::Enumeration { at } => {
-                let choice = at(parameters, variable.index);
+                let choice = at.get_mut(parameters);
                 let position = self.text().and_then(|text| choice.items().iter().position(|item| item.name == text));
                 let number = position.and_then(|position| i32::try_from(position + 1).ok());
                 if !number.is_some_and(|number| choice.choose(number)) {
