@@ -55,7 +55,7 @@ pub enum Command {
     /// Run one simulation and write its csv and its report
     ///
     /// Couples FMUs of the simulation's structure with a fixed-step master, and writes <SCENARIO>.csv with every
-    /// communication point and <SCENARIO>.html with figures. The FMUs are built for this run; those in the folder stay as
+    /// communication point, <SCENARIO>.json with units, parameters and scenario, and <SCENARIO>.html with figures. The FMUs are built for this run; those in the folder stay as
     /// they are.
     Simulate(SimulateArguments),
     /// Run every simulation of the thesis and print what it says beside what comes out

@@ -2,6 +2,7 @@
 
 pub mod budget;
 pub mod claims;
+pub mod particulars;
 pub mod reach;
 pub mod variation;
 pub mod verdict;
