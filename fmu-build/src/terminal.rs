@@ -2,9 +2,23 @@
 
 use std::fmt::Display;
 use std::io::{self, Write};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use anyhow::{Context, Result};
 use fmu_build::files::Written;
+
+/// Whether only results are wanted. The user says so once, for all that the program does.
+static IS_QUIET: AtomicBool = AtomicBool::new(false);
+
+/// From now on, only results are said.
+pub fn be_quiet() {
+    IS_QUIET.store(true, Ordering::Relaxed);
+}
+
+/// Whether only results are wanted.
+pub fn is_quiet() -> bool {
+    IS_QUIET.load(Ordering::Relaxed)
+}
 
 /// Writes a line, or several, to the standard output.
 ///
@@ -15,11 +29,19 @@ pub fn say(text: impl Display) -> Result<()> {
     writeln!(out, "{text}").and_then(|()| out.flush()).context("cannot write to the standard output")
 }
 
+/// Says what is no result: what is being done, and how it went.
+///
+/// # Errors
+/// As [`say`].
+pub fn remark(text: impl Display) -> Result<()> {
+    if is_quiet() { Ok(()) } else { say(text) }
+}
+
 /// Says where files are, and which of them took the place of others.
 ///
 /// # Errors
 /// As [`say`].
 pub fn wrote(files: &[Written]) -> Result<()> {
-    say("Written:")?;
-    files.iter().try_for_each(|file| say(format_args!("  {file}")))
+    remark("Written:")?;
+    files.iter().try_for_each(|file| remark(format_args!("  {file}")))
 }

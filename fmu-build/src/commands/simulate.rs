@@ -10,7 +10,7 @@ use fmu_build::{files, report};
 
 use super::{Pairs, Progress, speed};
 use crate::cli::SimulateArguments;
-use crate::terminal::{say, wrote};
+use crate::terminal::{remark, say, wrote};
 
 pub fn execute(arguments: &SimulateArguments, out: &Path) -> Result<()> {
     let mut scenario = super::scenario(&arguments.scenario)?;
@@ -37,7 +37,7 @@ pub fn execute(arguments: &SimulateArguments, out: &Path) -> Result<()> {
     let (csv, page) = (out.join(format!("{}.csv", scenario.id)), out.join(format!("{}.html", scenario.id)));
     let files = [write_csv(&csv, &[("", &run.recording)], 1)?, report.write(&page)?];
     say(format_args!("{}: {}\n\n{}\n", scenario.id, scenario.title, report.table))?;
-    say(format_args!("{}\n", speed(&[&run])))?;
+    remark(format_args!("{}\n", speed(&[&run])))?;
     wrote(&files)?;
     match run.stopped {
         None => Ok(()),
