@@ -24,7 +24,7 @@ fn main() -> ExitCode {
             return ExitCode::from(USAGE);
         }
         // Help and version are answers, not mistakes.
-        Err(answer) => return exit(terminal::say(answer.render().ansi().to_string().trim_end())),
+        Err(answer) => return exit(terminal::say_styled(&answer.render())),
     };
     if arguments.quiet {
         terminal::be_quiet();

@@ -1,10 +1,11 @@
 //! What the program says on its standard output.
 
 use std::fmt::Display;
-use std::io::{self, Write};
+use std::io::{self, IsTerminal, Write};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use anyhow::{Context, Result};
+use clap::builder::StyledStr;
 use fmu_build::files::Written;
 
 /// Whether only results are wanted. The user says so once, for all that the program does.
@@ -27,6 +28,15 @@ pub fn is_quiet() -> bool {
 pub fn say(text: impl Display) -> Result<()> {
     let mut out = io::stdout().lock();
     writeln!(out, "{text}").and_then(|()| out.flush()).context("cannot write to the standard output")
+}
+
+/// As [`say`], in bold where that is shown and not written into a file.
+///
+/// # Errors
+/// As [`say`].
+pub fn say_styled(text: &StyledStr) -> Result<()> {
+    let shown = if io::stdout().is_terminal() { text.ansi().to_string() } else { text.to_string() };
+    say(shown.trim_end())
 }
 
 /// Says what is no result: what is being done, and how it went.

@@ -99,6 +99,7 @@ fn help_teaches_with_examples() {
     let (code, help, _) = answer(&["--help"]);
     assert_eq!(code, Some(0));
     assert!(help.contains("Examples:") && help.contains("uam simulate 4.3a"), "{help}");
+    assert!(!help.contains('\u{1b}'), "no control characters where there is no terminal: {help}");
     assert!(!help.contains("describe"), "what only developers need is not shown: {help}");
 }
 
