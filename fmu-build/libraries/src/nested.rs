@@ -35,6 +35,8 @@ pub fn cargo(
         // A folder that the user's configuration names for all builds may be locked by the cargo that waits for this one.
         .env("CARGO_BUILD_BUILD_DIR", folder)
         .env("CARGO_ENCODED_RUSTFLAGS", flags)
+        // Other machines are named as options.
+        .env_remove("CARGO_BUILD_TARGET")
         // Those of the cargo outside: clippy, for instance, makes no libraries.
         .env_remove("RUSTC_WRAPPER")
         .env_remove("RUSTC_WORKSPACE_WRAPPER");
