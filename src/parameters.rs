@@ -398,12 +398,6 @@ pub struct Parameters {
     pub reference: Reference,
 }
 
-impl AsMut<Self> for Parameters {
-    fn as_mut(&mut self) -> &mut Self {
-        self
-    }
-}
-
 impl Parameters {
     /// The parameters of both units, each once.
     #[must_use]
@@ -420,10 +414,9 @@ impl Parameters {
     /// # Errors
     /// Names the first parameter out of its bounds, with what was expected and found.
     pub fn check(&self, structure: Structure) -> Result<()> {
-        let mut copy = self.clone();
         for variable in Self::table(structure).variables() {
             if let Kind::Real { bounds, at, .. } = variable.kind {
-                let found = *at(&mut copy, variable.index);
+                let found = *at.get(self);
                 if !bounds.admit(found) {
                     return Err(Error::OutOfBounds {
                         name: variable.name.clone(),

@@ -4,6 +4,7 @@
 //! them. Model descriptions, getters and setters, connections, reference documentation and parameter
 //! files all derive from it, so that no name, unit or bound is written twice.
 
+pub mod declare;
 pub mod options;
 pub mod unit;
 
@@ -80,27 +81,60 @@ impl std::fmt::Display for Bounds {
     }
 }
 
-/// Type of a variable and the way to it inside the data structure `D`; the `usize` is the variable's
-/// own [`Variable::index`] (the number of a joint or leg, from 0).
+/// How the value of one variable is reached inside the data structure `D`.
+pub struct Access<D, T: ?Sized> {
+    get: fn(&D, usize) -> &T,
+    get_mut: fn(&mut D, usize) -> &mut T,
+    index: usize,
+}
+
+impl<D, T: ?Sized> Access<D, T> {
+    /// Access by two functions to the element with this `index`, from 0 (the number of a joint or leg).
+    pub const fn new(get: fn(&D, usize) -> &T, get_mut: fn(&mut D, usize) -> &mut T, index: usize) -> Self {
+        Self { get, get_mut, index }
+    }
+
+    /// The value inside `data`.
+    #[inline]
+    pub fn get<'a>(&self, data: &'a D) -> &'a T {
+        (self.get)(data, self.index)
+    }
+
+    /// The value inside `data`, to be changed.
+    #[inline]
+    pub fn get_mut<'a>(&self, data: &'a mut D) -> &'a mut T {
+        (self.get_mut)(data, self.index)
+    }
+}
+
+impl<D, T: ?Sized> Clone for Access<D, T> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<D, T: ?Sized> Copy for Access<D, T> {}
+
+/// Type of a variable, and how its value is reached.
 pub enum Kind<D> {
     /// A real number in SI units.
     Real {
-        /// PhysicalUnit, with the unit in which hosts should display it.
+        /// The unit, with the one in which hosts should display it.
         unit: &'static PhysicalUnit,
         /// Admissible values.
         bounds: Bounds,
-        /// The way to the value.
-        at: fn(&mut D, usize) -> &mut f64,
+        /// The value.
+        at: Access<D, f64>,
     },
     /// A truth value.
     Boolean {
-        /// The way to the value.
-        at: fn(&mut D, usize) -> &mut bool,
+        /// The value.
+        at: Access<D, bool>,
     },
     /// One of a closed set of named alternatives.
     Enumeration {
-        /// The way to the value.
-        at: fn(&mut D, usize) -> &mut dyn Choice,
+        /// The value.
+        at: Access<D, dyn Choice>,
     },
 }
 
@@ -114,12 +148,12 @@ impl<D> Copy for Kind<D> {}
 
 /// The first derivative of a real variable with respect to time.
 pub enum Derivative<D> {
-    /// Of an output: always this number, 0 for one that changes at communication points only.
-    Constant(f64),
-    /// Of an output: what stands here, at the end of the finished step.
-    At(fn(&mut D, usize) -> &mut f64),
-    /// Of an input: for the coming step, a given one goes here.
-    Given(fn(&mut D, usize, f64)),
+    /// Of an output: the variable at this position of the table.
+    Variable(usize),
+    /// Of an output: what this function reads, at the end of the finished step, given the variable's index.
+    Read(fn(&D, usize) -> f64, usize),
+    /// Of an input: for the coming step, this function takes a given one, after the variable's index.
+    Given(fn(&mut D, usize, f64), usize),
 }
 
 impl<D> Clone for Derivative<D> {
@@ -142,27 +176,22 @@ pub struct Variable<D> {
     pub variability: Variability,
     /// Type and access.
     pub kind: Kind<D>,
-    /// Number of the element that `kind` reaches, from 0.
-    pub index: usize,
     /// For outputs: the parameters that decide the value at the end of initialization, in groups of beginnings
     /// of their names without indices (`link.mass` stands for every `link[i].mass`).
     pub initially_from: &'static [&'static [&'static str]],
     /// How it changes with time, if hosts may read that (outputs) or give it (inputs).
     pub derivative: Option<Derivative<D>>,
+    /// Position of the variable whose derivative with respect to time this one is.
+    pub derivative_of: Option<usize>,
     /// Whether it is an output that is computed when the host asks for it.
     pub on_demand: bool,
 }
 
 impl<D> Variable<D> {
-    /// The name without indices: `link.mass` for every `link[i].mass`.
-    fn plain_name(&self) -> String {
-        plain(&self.name)
-    }
-
-    /// The place of the value inside `data`, for real variables.
-    pub fn real<'a>(&self, data: &'a mut D) -> Option<&'a mut f64> {
+    /// The value inside `data` of a real variable.
+    pub fn real(&self, data: &D) -> Option<f64> {
         match self.kind {
-            Kind::Real { at, .. } => Some(at(data, self.index)),
+            Kind::Real { at, .. } => Some(*at.get(data)),
             Kind::Boolean { .. } | Kind::Enumeration { .. } => None,
         }
     }
@@ -170,13 +199,12 @@ impl<D> Variable<D> {
     /// Whether the initial value of this output depends on the parameter `name`.
     #[must_use]
     pub fn initially_depends_on(&self, name: &str) -> bool {
-        let plain = plain(name);
+        let plain = without_indices(name);
         self.initially_from.iter().copied().flatten().any(|beginning| plain.starts_with(beginning))
     }
 }
 
-/// A name without its indices.
-pub(crate) fn plain(name: &str) -> String {
+fn without_indices(name: &str) -> String {
     name.split('[').map(|part| part.split_once(']').map_or(part, |(_, rest)| rest)).collect()
 }
 
@@ -209,135 +237,6 @@ impl<D> Table<D> {
         for variable in &mut self.variables {
             variable.name = name(&variable.name);
         }
-    }
-
-    /// Says how variables, named without indices, change with time.
-    pub fn differentiate(&mut self, derivatives: &[(&str, Derivative<D>)]) {
-        for variable in &mut self.variables {
-            let name = variable.plain_name();
-            if let Some((_, derivative)) = derivatives.iter().find(|(candidate, _)| *candidate == name) {
-                variable.derivative = Some(*derivative);
-            }
-        }
-    }
-
-    /// Says which outputs, named without indices, are computed when the host asks for one of them.
-    pub fn postpone(&mut self, outputs: &[&str]) {
-        for variable in &mut self.variables {
-            variable.on_demand = outputs.contains(&variable.plain_name().as_str());
-        }
-    }
-
-    /// For the position of every variable that is the derivative of another one: the position of that.
-    pub fn integrals(&self, data: &mut D) -> Vec<(usize, usize)> {
-        let mut place = |variable: &Variable<D>| variable.real(data).map(std::ptr::from_mut);
-        let places: Vec<_> = self.variables.iter().map(&mut place).collect();
-        let derivative = |(integral, variable): (usize, &Variable<D>)| match variable.derivative {
-            Some(Derivative::At(at)) => {
-                let wanted = Some(std::ptr::from_mut(at(data, variable.index)));
-                places.iter().position(|place| *place == wanted).map(|position| (position, integral))
-            }
-            _ => None,
-        };
-        self.variables.iter().enumerate().filter_map(derivative).collect()
-    }
-
-    /// Declares parameters that are fixed once the simulation runs.
-    pub fn fixed(&mut self) -> Group<'_, D> {
-        self.group(Causality::Parameter, Variability::Fixed)
-    }
-
-    /// Declares parameters that may be changed during a simulation.
-    pub fn tunable(&mut self) -> Group<'_, D> {
-        self.group(Causality::Parameter, Variability::Tunable)
-    }
-
-    /// Declares continuous inputs.
-    pub fn input(&mut self) -> Group<'_, D> {
-        self.group(Causality::Input, Variability::Continuous)
-    }
-
-    /// Declares continuous outputs.
-    pub fn output(&mut self) -> Group<'_, D> {
-        self.group(Causality::Output, Variability::Continuous)
-    }
-
-    /// Declares variables of any causality and variability.
-    pub fn group(&mut self, causality: Causality, variability: Variability) -> Group<'_, D> {
-        Group { table: self, causality, variability, index: 0, initially_from: &[] }
-    }
-}
-
-/// Declares, into a [`Table`], variables that share causality, variability and index.
-pub struct Group<'a, D> {
-    table: &'a mut Table<D>,
-    causality: Causality,
-    variability: Variability,
-    index: usize,
-    initially_from: &'static [&'static [&'static str]],
-}
-
-impl<D> Group<'_, D> {
-    /// Sets the index (from 0) for the declarations that follow.
-    #[must_use]
-    pub fn at(mut self, index: usize) -> Self {
-        self.index = index;
-        self
-    }
-
-    /// Says which parameters decide the initial values of the outputs that follow; see
-    /// [`Variable::initially_from`].
-    #[must_use]
-    pub fn initially_from(mut self, parameters: &'static [&'static [&'static str]]) -> Self {
-        self.initially_from = parameters;
-        self
-    }
-
-    /// Declares a real variable.
-    pub fn real(
-        &mut self,
-        name: impl Into<String>,
-        unit: &'static PhysicalUnit,
-        bounds: Bounds,
-        description: impl Into<String>,
-        at: fn(&mut D, usize) -> &mut f64,
-    ) -> &mut Self {
-        self.declare(name.into(), description.into(), Kind::Real { unit, bounds, at })
-    }
-
-    /// Declares a Boolean variable.
-    pub fn boolean(
-        &mut self,
-        name: impl Into<String>,
-        description: impl Into<String>,
-        at: fn(&mut D, usize) -> &mut bool,
-    ) -> &mut Self {
-        self.declare(name.into(), description.into(), Kind::Boolean { at })
-    }
-
-    /// Declares an enumeration variable.
-    pub fn choice(
-        &mut self,
-        name: impl Into<String>,
-        description: impl Into<String>,
-        at: fn(&mut D, usize) -> &mut dyn Choice,
-    ) -> &mut Self {
-        self.declare(name.into(), description.into(), Kind::Enumeration { at })
-    }
-
-    fn declare(&mut self, name: String, description: String, kind: Kind<D>) -> &mut Self {
-        self.table.variables.push(Variable {
-            name,
-            description,
-            causality: self.causality,
-            variability: self.variability,
-            kind,
-            index: self.index,
-            initially_from: self.initially_from,
-            derivative: None,
-            on_demand: false,
-        });
-        self
     }
 }
 

@@ -7,6 +7,7 @@ use uam::fmi::{CommunicationStep, Identity, Model};
 use uam::parameters::defaults::default_parameters;
 use uam::parameters::{Balance, MAX_LINKS, Resolution};
 use uam::units::{controller::ControllerUnit, plant::PlantUnit};
+use uam::variables::declare::Part;
 use uam::variables::{Bounds, Causality, Kind, Variable};
 use uam::{Error, Parameters, Structure, control, plant};
 
@@ -61,7 +62,7 @@ fn with_each_set_to(structure: Structure, value: f64) -> Vec<(String, Bounds, Pa
     let changed = |variable: &Variable<Parameters>| {
         let Kind::Real { at, bounds, .. } = variable.kind else { return None };
         let mut parameters = default_parameters(structure);
-        *at(&mut parameters, variable.index) = value;
+        *at.get_mut(&mut parameters) = value;
         Some((variable.name.clone(), bounds, parameters))
     };
     Parameters::table(structure).variables().iter().filter_map(changed).collect()
@@ -93,10 +94,10 @@ fn refusals(structure: Structure, parameters: &Parameters) -> Vec<String> {
         parameters: &Parameters,
     ) -> Option<Error>
     where
-        M::Data: AsMut<Parameters>,
+        M::Data: Part<Parameters>,
     {
         let mut data = M::start(structure);
-        data.as_mut().clone_from(parameters);
+        data.part_mut().clone_from(parameters);
         let step = CommunicationStep { start_time: 0.0, from: 0.0, size: 1e-3 };
         M::initialize(structure, &mut data, 0.0).and_then(|mut model| model.step(&mut data, step)).err()
     }
@@ -172,8 +173,8 @@ fn methods_that_do_not_go_together_are_named() {
         for variable in Parameters::table(structure).variables() {
             let Kind::Enumeration { at } = variable.kind else { continue };
             let mut parameters = default_parameters(structure);
-            for number in 1..=at(&mut parameters, variable.index).items().len() {
-                at(&mut parameters, variable.index).choose(i32::try_from(number).unwrap());
+            for number in 1..=at.get(&parameters).items().len() {
+                at.get_mut(&mut parameters).choose(i32::try_from(number).unwrap());
                 for refusal in refusals(structure, &parameters) {
                     // What does not suit a resolution is named together with it.
                     assert!(refusal.contains(&variable.name) || refusal.contains("with the resolution"), "{refusal}");

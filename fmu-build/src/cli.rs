@@ -200,6 +200,12 @@ pub struct SimulateArguments {
     /// interval, with errors near rounding.
     #[arg(long, value_name = "NAME", value_parser = discretizations())]
     pub discretization: Option<Discretization>,
+    /// End with an error unless the path was followed and nothing looks wrong
+    ///
+    /// What is wrong stands in the first lines of the output and of the report: for instance a path that the arm cannot follow,
+    /// or a UAV that rolls over, falls or drifts away.
+    #[arg(long)]
+    pub strict: bool,
     /// Write every output of both units to the csv, not only those in the report
     #[arg(long)]
     pub all_outputs: bool,

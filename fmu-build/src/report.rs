@@ -24,6 +24,7 @@ use crate::formats::html::document;
 use crate::host::record::NotRecorded;
 use crate::host::run::Run;
 use crate::study::claims::Table;
+use crate::study::verdict::Verdict;
 
 /// A report that cannot be made.
 #[derive(Debug, thiserror::Error)]
@@ -98,6 +99,14 @@ impl Report {
 /// A page with a heading.
 fn page(title: &str, content: &Markup) -> String {
     document(title, style::SHEET, &html! { main { h1 { (title) } (content) } })
+}
+
+/// What became of a run: it stands first.
+fn verdict(verdict: &Verdict) -> Markup {
+    html! {
+        p { strong { (verdict.sentence) } }
+        @if !verdict.doubts.is_empty() { ul { @for doubt in &verdict.doubts { li { (doubt) } } } }
+    }
 }
 
 fn table(table: &Table) -> Markup {

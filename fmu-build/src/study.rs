@@ -4,6 +4,7 @@ pub mod budget;
 pub mod claims;
 pub mod reach;
 pub mod variation;
+pub mod verdict;
 
 use std::time::Duration;
 

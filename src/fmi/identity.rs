@@ -84,10 +84,9 @@ impl<M: Model> Identity<M> {
     pub fn guid(&self) -> Guid {
         let naming = self.naming.name();
         let mut text = format!("{} {} {} {naming}\n", M::IDENTIFIER, M::INTERFACE_VERSION, self.structure);
-        let mut start = self.start.clone();
         for variable in self.table().variables() {
             // Writing to a string cannot fail.
-            let _ = describe(&mut text, variable, &mut start);
+            let _ = describe(&mut text, variable, &self.start);
         }
         Guid(Uuid::new_v5(&NAMESPACE, text.as_bytes()))
     }
@@ -112,8 +111,8 @@ impl fmt::Display for Guid {
 }
 
 /// Appends all of a variable's declaration that an importer relies on.
-fn describe<D>(text: &mut String, variable: &Variable<D>, start: &mut D) -> fmt::Result {
-    let Variable { name, causality, variability, kind, index, .. } = variable;
+fn describe<D>(text: &mut String, variable: &Variable<D>, start: &D) -> fmt::Result {
+    let Variable { name, causality, variability, kind, .. } = variable;
     write!(text, "{name} {causality:?} {variability:?} ")?;
     let settable = matches!(causality, Causality::Parameter | Causality::Input);
     match *kind {
@@ -121,17 +120,17 @@ fn describe<D>(text: &mut String, variable: &Variable<D>, start: &mut D) -> fmt:
             describe_unit(text, unit)?;
             describe_bounds(text, &bounds)?;
             if settable {
-                write!(text, " {:016x}", at(start, *index).to_bits())?;
+                write!(text, " {:016x}", at.get(start).to_bits())?;
             }
         }
         Kind::Boolean { at } => {
             write!(text, "Boolean")?;
             if settable {
-                write!(text, " {}", at(start, *index))?;
+                write!(text, " {}", at.get(start))?;
             }
         }
         Kind::Enumeration { at } => {
-            let choice = at(start, *index);
+            let choice = at.get(start);
             write!(text, "{}", choice.type_name())?;
             for item in choice.items() {
                 write!(text, " {}", item.name)?;
@@ -190,7 +189,7 @@ impl fmt::Display for UnknownGuid {
 mod tests {
     use super::*;
     use crate::fmi::v2::toy::{Size, Toy, vr};
-    use crate::variables::unit;
+    use crate::variables::{Access, unit};
 
     fn description(change: impl FnOnce(&mut Variable<<Toy as Model>::Data>)) -> String {
         let table = Toy::table(Size::Small);
@@ -198,7 +197,7 @@ mod tests {
         let mut variable = Variable { name: original.name.clone(), description: String::new(), ..*original };
         change(&mut variable);
         let mut text = String::new();
-        describe(&mut text, &variable, &mut Toy::start(Size::Small)).unwrap();
+        describe(&mut text, &variable, &Toy::start(Size::Small)).unwrap();
         text
     }
 
@@ -235,24 +234,23 @@ mod tests {
     #[test]
     fn every_part_of_a_declaration_counts() {
         let original = description(|_| {});
-        let gain = |at| Kind::Real { unit: &unit::ONE, bounds: Bounds::POSITIVE, at };
-        let changes: [fn(&mut Variable<_>); 4] = [
+        let gain = Access::new(|d: &<Toy as Model>::Data, _| &d.gain, |d, _| &mut d.gain, 0);
+        let limit = Access::new(|d: &<Toy as Model>::Data, _| &d.limit, |d, _| &mut d.limit, 0);
+        let kind = |unit, bounds, at| Kind::Real { unit, bounds, at };
+        let changes: [fn(&mut Variable<_>); 3] = [
             |variable| variable.name = "amplification".to_owned(),
             |variable| variable.causality = Causality::Input,
             |variable| variable.variability = crate::variables::Variability::Tunable,
-            |variable| variable.index = 1,
         ];
-        for change in &changes[..3] {
+        for change in changes {
             assert_ne!(description(change), original);
         }
-        // How a variable is reached inside does not concern the host.
-        assert_eq!(description(changes[3]), original);
-
-        assert_eq!(description(|variable| variable.kind = gain(|d, _| &mut d.gain)), original);
-        assert_ne!(description(|variable| variable.kind = gain(|d, _| &mut d.limit)), original, "start value");
+        let same = kind(&unit::ONE, Bounds::POSITIVE, gain);
+        assert_eq!(description(|variable| variable.kind = same), original);
+        let elsewhere = kind(&unit::ONE, Bounds::POSITIVE, limit);
+        assert_ne!(description(|variable| variable.kind = elsewhere), original, "start value");
         for (unit, bounds) in [(&unit::METRE, Bounds::POSITIVE), (&unit::ONE, Bounds::NON_NEGATIVE)] {
-            let kind = Kind::Real { unit, bounds, at: |d: &mut <Toy as Model>::Data, _| &mut d.gain };
-            assert_ne!(description(|variable| variable.kind = kind), original);
+            assert_ne!(description(|variable| variable.kind = kind(unit, bounds, gain)), original);
         }
     }
 }

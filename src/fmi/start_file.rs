@@ -70,11 +70,11 @@ pub enum StartFileError {
 /// The text of the file for a unit; `None` for one that the library knows without it.
 #[must_use]
 pub fn write<M: Model>(unit: &Identity<M>) -> Option<String> {
-    let (mut own, mut known) = (unit.start.clone(), M::start(unit.structure));
+    let known = M::start(unit.structure);
     let mut changes = String::new();
     for variable in unit.table().variables().iter().filter(|variable| is_set_from_outside(variable)) {
-        let value = spelled(variable, &mut own);
-        if value != spelled(variable, &mut known) {
+        let value = spelled(variable, &unit.start);
+        if value != spelled(variable, &known) {
             // Writing to a string cannot fail.
             let _ = writeln!(changes, "\"{}\" = {value}", variable.name);
         }
@@ -188,14 +188,14 @@ fn is_set_from_outside<D>(variable: &Variable<D>) -> bool {
 }
 
 /// The value of a variable, so that it is read back bit by bit.
-fn spelled<D>(variable: &Variable<D>, data: &mut D) -> String {
+fn spelled<D>(variable: &Variable<D>, data: &D) -> String {
     match variable.kind {
         Kind::Real { at, .. } => {
-            let number = *at(data, variable.index);
+            let number = *at.get(data);
             format!("{:#018x} # {number:?}", number.to_bits())
         }
-        Kind::Boolean { at } => at(data, variable.index).to_string(),
-        Kind::Enumeration { at } => format!("\"{}\"", at(data, variable.index).name()),
+        Kind::Boolean { at } => at.get(data).to_string(),
+        Kind::Enumeration { at } => format!("\"{}\"", at.get(data).name()),
     }
 }
 
@@ -206,13 +206,13 @@ fn assign<D>(variable: &Variable<D>, data: &mut D, value: &str) -> Result<(), St
             let digits = value.split_whitespace().next().and_then(|bits| bits.strip_prefix("0x"));
             let number = digits.and_then(|bits| u64::from_str_radix(bits, 16).ok()).map(f64::from_bits);
             let number = number.filter(|number| bounds.admit(*number));
-            *at(data, variable.index) = number.ok_or_else(|| format!("the bits of {bounds}"))?;
+            *at.get_mut(data) = number.ok_or_else(|| format!("the bits of {bounds}"))?;
         }
         Kind::Boolean { at } => {
-            *at(data, variable.index) = value.parse().map_err(|_| "true or false".to_owned())?;
+            *at.get_mut(data) = value.parse().map_err(|_| "true or false".to_owned())?;
         }
         Kind::Enumeration { at } => {
-            let choice: &mut dyn Choice = at(data, variable.index);
+            let choice: &mut dyn Choice = at.get_mut(data);
             let items = choice.items();
             let number = (1..).zip(items).find(|(_, item)| item.name == unquoted(value)).map(|(number, _)| number);
             let names = || items.iter().map(|item| item.name).collect::<Vec<_>>().join(" or ");

@@ -20,13 +20,13 @@ pub fn blame<M: Model>(
     if error.parameter().is_some() {
         return error;
     }
-    let mut known = M::start(structure);
+    let known = M::start(structure);
     let table = M::table(structure);
     for variable in table.variables().iter().filter(|variable| variable.causality == Causality::Parameter) {
         let mut changed = data.clone();
-        let [found, start] = [&mut changed, &mut known].map(|data| spelled(variable, data));
+        let [found, start] = [&changed, &known].map(|data| spelled(variable, data));
         if found != start {
-            take_over(variable, &mut changed, &mut known);
+            take_over(variable, &mut changed, &known);
             if begin(&mut changed).is_ok() {
                 return Error::Unsuited { name: variable.name.clone(), found, start, reason: Box::new(error) };
             }
@@ -35,20 +35,20 @@ pub fn blame<M: Model>(
     error
 }
 
-fn spelled<D>(variable: &Variable<D>, data: &mut D) -> String {
+fn spelled<D>(variable: &Variable<D>, data: &D) -> String {
     match variable.kind {
-        Kind::Real { at, .. } => format!("{:?}", at(data, variable.index)),
-        Kind::Boolean { at } => at(data, variable.index).to_string(),
-        Kind::Enumeration { at } => at(data, variable.index).name().to_owned(),
+        Kind::Real { at, .. } => format!("{:?}", at.get(data)),
+        Kind::Boolean { at } => at.get(data).to_string(),
+        Kind::Enumeration { at } => at.get(data).name().to_owned(),
     }
 }
 
-fn take_over<D>(variable: &Variable<D>, data: &mut D, from: &mut D) {
+fn take_over<D>(variable: &Variable<D>, data: &mut D, from: &D) {
     match variable.kind {
-        Kind::Real { at, .. } => *at(data, variable.index) = *at(from, variable.index),
-        Kind::Boolean { at } => *at(data, variable.index) = *at(from, variable.index),
+        Kind::Real { at, .. } => *at.get_mut(data) = *at.get(from),
+        Kind::Boolean { at } => *at.get_mut(data) = *at.get(from),
         Kind::Enumeration { at } => {
-            at(data, variable.index).choose(at(from, variable.index).number());
+            at.get_mut(data).choose(at.get(from).number());
         }
     }
 }

@@ -24,7 +24,8 @@ pub(super) fn write(scenario: &Scenario, extent: Extent) -> String {
     let mut text = format!(
         "\
 # Names, units and bounds of the parameters are those of the FMUs. What is not here has the start value that it
-# has in the FMUs of this structure.
+# has in the FMUs of this structure. A number may stand with its unit, in quotes: \"30 deg\", \"5 cm\"; \"joint[*].weight\" is
+# the weight of every joint.
 id = {id}
 title = {title}
 duration = {duration:?} # [s]
@@ -37,23 +38,23 @@ balance = \"{balance}\"
 [parameters]
 "
     );
-    let (mut defaults, mut parameters) = (default_parameters(*structure), scenario.parameters.clone());
+    let (defaults, parameters) = (&default_parameters(*structure), &scenario.parameters);
     for variable in Parameters::table(*structure).variables() {
         let (value, default, meaning) = match variable.kind {
             Kind::Real { at, unit, .. } => {
-                let value = |data| format!("{:?}", *at(data, variable.index));
+                let value = |data| format!("{:?}", at.get(data));
                 let meaning = format!("{} [{}]", variable.description, unit.name);
-                (value(&mut parameters), value(&mut defaults), meaning)
+                (value(parameters), value(defaults), meaning)
             }
             Kind::Boolean { at } => {
-                let value = |data| at(data, variable.index).to_string();
-                (value(&mut parameters), value(&mut defaults), variable.description.clone())
+                let value = |data| at.get(data).to_string();
+                (value(parameters), value(defaults), variable.description.clone())
             }
             Kind::Enumeration { at } => {
-                let value = |data| format!("\"{}\"", at(data, variable.index).name());
-                let items = at(&mut parameters, variable.index).items().iter().map(|item| item.name);
+                let value = |data| format!("\"{}\"", at.get(data).name());
+                let items = at.get(parameters).items().iter().map(|item| item.name);
                 let meaning = format!("{}: {}", variable.description, items.collect::<Vec<_>>().join(", "));
-                (value(&mut parameters), value(&mut defaults), meaning)
+                (value(parameters), value(defaults), meaning)
             }
         };
         if extent == Extent::Everything || value != default {

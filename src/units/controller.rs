@@ -1,9 +1,8 @@
 //! `uam_controller`: the inverse kinematics as a co-simulation unit.
 
-mod derivatives;
+mod inputs;
+mod outputs;
 
-use super::start::{BALANCE, GEOMETRY, PLAN};
-use super::{Balancing, declare_time};
 use crate::bytes::{Memory, Tape};
 use crate::control::{self, Inputs, OutputDerivatives, Outputs};
 use crate::error::Error;
@@ -11,9 +10,8 @@ use crate::fmi::{CommunicationStep, Model};
 use crate::parameters::culprit::blame;
 use crate::parameters::defaults::default_parameters;
 use crate::parameters::{self, Parameters, Structure};
-use crate::variables::options::Choice;
-use crate::variables::unit;
-use crate::variables::{Bounds, Causality, Table, Variability};
+use crate::variables::Table;
+use crate::variables::declare::{Part, declare};
 
 /// All that the host sees of the controller.
 #[derive(Debug, Clone)]
@@ -30,8 +28,12 @@ pub struct Data {
     pub rates: OutputDerivatives,
 }
 
-impl AsMut<Parameters> for Data {
-    fn as_mut(&mut self) -> &mut Parameters {
+impl Part<Parameters> for Data {
+    fn part(&self) -> &Parameters {
+        &self.parameters
+    }
+
+    fn part_mut(&mut self) -> &mut Parameters {
         &mut self.parameters
     }
 }
@@ -63,12 +65,14 @@ impl Model for ControllerUnit {
 
     fn table(structure: Structure) -> Table<Data> {
         let mut table = Table::default();
-        declare_time(&mut table, |d: &mut Data, _| &mut d.time);
+        declare! { table.independent(), Data;
+            "time" [SECOND] "Simulation time"
+                |d, _| d.time;
+        }
         parameters::declare_shared(&mut table, structure);
         parameters::declare_controller(&mut table, structure);
-        declare_inputs(&mut table);
-        declare_outputs(&mut table, structure);
-        table.differentiate(derivatives::ALL);
+        inputs::declare(&mut table);
+        outputs::declare(&mut table, structure);
         table
     }
 
@@ -118,233 +122,6 @@ impl Model for ControllerUnit {
         planner.check_memory()?;
         Ok(Self(planner))
     }
-}
-
-fn declare_inputs(table: &mut Table<Data>) {
-    table
-        .group(Causality::Input, Variability::Continuous)
-        .real(
-            "external_reference.x",
-            &unit::METRE,
-            Bounds::ANY,
-            "Wanted position of the end effector, to the right",
-            |d, _| &mut d.inputs.position.x,
-        )
-        .real(
-            "external_reference.y",
-            &unit::METRE,
-            Bounds::ANY,
-            "Wanted position of the end effector, upwards",
-            |d, _| &mut d.inputs.position.y,
-        )
-        .real(
-            "external_reference.vx",
-            &unit::METRE_PER_SECOND,
-            Bounds::ANY,
-            "Wanted velocity of the end effector, to the right",
-            |d, _| &mut d.inputs.velocity.x,
-        )
-        .real(
-            "external_reference.vy",
-            &unit::METRE_PER_SECOND,
-            Bounds::ANY,
-            "Wanted velocity of the end effector, upwards",
-            |d, _| &mut d.inputs.velocity.y,
-        )
-        .real(
-            "external_reference.ax",
-            &unit::METRE_PER_SECOND2,
-            Bounds::ANY,
-            "Wanted acceleration of the end effector, to the right",
-            |d, _| &mut d.inputs.acceleration.x,
-        )
-        .real(
-            "external_reference.ay",
-            &unit::METRE_PER_SECOND2,
-            Bounds::ANY,
-            "Wanted acceleration of the end effector, upwards",
-            |d, _| &mut d.inputs.acceleration.y,
-        );
-}
-
-fn declare_outputs(table: &mut Table<Data>, structure: Structure) {
-    for i in 0..structure.links {
-        let n = i + 1;
-        table.output().at(i).initially_from(&[PLAN]).real(
-            format!("joint[{n}].rate_command"),
-            &unit::RADIAN_PER_SECOND,
-            Bounds::ANY,
-            format!("Rate for joint {n} now, after any jump"),
-            |d, i| &mut d.outputs.rate_command[i],
-        );
-    }
-    if let Some(Balancing { name, noun, moved_by, units: [_, rate, ..], .. }) = Balancing::new(structure.balance) {
-        table.output().at(structure.links).initially_from(&[PLAN]).real(
-            format!("{name}.rate_command"),
-            rate,
-            Bounds::ANY,
-            format!("Rate for the {noun} now, after any jump; 0, except with {}", moved_by.name()),
-            |d, i| &mut d.outputs.rate_command[i],
-        );
-    }
-    for i in 0..structure.links {
-        let n = i + 1;
-        table.output().at(i).initially_from(&[PLAN]).real(
-            format!("joint[{n}].acceleration_command"),
-            &unit::RADIAN_PER_SECOND2,
-            Bounds::ANY,
-            format!("Acceleration for joint {n} until the next communication point; 0 with a hold of zero order"),
-            |d, i| &mut d.outputs.acceleration_command[i],
-        );
-    }
-    if let Some(Balancing { name, noun, units: [_, _, acceleration, ..], .. }) = Balancing::new(structure.balance) {
-        table.output().at(structure.links).initially_from(&[PLAN]).real(
-            format!("{name}.acceleration_command"),
-            acceleration,
-            Bounds::ANY,
-            format!("Acceleration for the {noun} until the next communication point; 0 with a hold of zero order"),
-            |d, i| &mut d.outputs.acceleration_command[i],
-        );
-    }
-    table.group(Causality::Output, Variability::Discrete).initially_from(&[&["payload.grasp_time"]]).boolean(
-        "grasp",
-        "Whether the payload is to be held",
-        |d, _| &mut d.outputs.grasp,
-    );
-    table
-        .output()
-        .initially_from(&[GEOMETRY])
-        .real(
-            "reference.x",
-            &unit::METRE,
-            Bounds::ANY,
-            "Wanted position of the end effector now, to the right",
-            |d, _| &mut d.outputs.reference.x,
-        )
-        .real("reference.y", &unit::METRE, Bounds::ANY, "Wanted position of the end effector now, upwards", |d, _| {
-            &mut d.outputs.reference.y
-        });
-    table
-        .output()
-        .real(
-            "reference.vx",
-            &unit::METRE_PER_SECOND,
-            Bounds::ANY,
-            "Wanted velocity of the end effector now, to the right",
-            |d, _| &mut d.outputs.reference_velocity.x,
-        )
-        .real(
-            "reference.vy",
-            &unit::METRE_PER_SECOND,
-            Bounds::ANY,
-            "Wanted velocity of the end effector now, upwards",
-            |d, _| &mut d.outputs.reference_velocity.y,
-        );
-    table
-        .output()
-        .real("predicted.base.x", &unit::METRE, Bounds::ANY, "Predicted position of the UAV, to the right", |d, _| {
-            &mut d.outputs.predicted_pose.x
-        })
-        .real("predicted.base.y", &unit::METRE, Bounds::ANY, "Predicted position of the UAV, upwards", |d, _| {
-            &mut d.outputs.predicted_pose.y
-        })
-        .real("predicted.base.roll", &unit::RADIAN, Bounds::ANY, "Predicted roll of the UAV", |d, _| {
-            &mut d.outputs.predicted_pose.z
-        })
-        .real(
-            "predicted.base.vx",
-            &unit::METRE_PER_SECOND,
-            Bounds::ANY,
-            "Predicted velocity of the UAV, to the right",
-            |d, _| &mut d.outputs.predicted_velocity.x,
-        )
-        .real(
-            "predicted.base.vy",
-            &unit::METRE_PER_SECOND,
-            Bounds::ANY,
-            "Predicted velocity of the UAV, upwards",
-            |d, _| &mut d.outputs.predicted_velocity.y,
-        )
-        .real(
-            "predicted.base.roll_rate",
-            &unit::RADIAN_PER_SECOND,
-            Bounds::ANY,
-            "Predicted angular velocity of the UAV",
-            |d, _| &mut d.outputs.predicted_velocity.z,
-        );
-    table
-        .output()
-        .initially_from(&[GEOMETRY])
-        .real(
-            "predicted.end_effector.x",
-            &unit::METRE,
-            Bounds::ANY,
-            "Predicted position of the end effector, to the right",
-            |d, _| &mut d.outputs.predicted_end_effector.x,
-        )
-        .real(
-            "predicted.end_effector.y",
-            &unit::METRE,
-            Bounds::ANY,
-            "Predicted position of the end effector, upwards",
-            |d, _| &mut d.outputs.predicted_end_effector.y,
-        );
-    for i in 0..structure.links {
-        let n = i + 1;
-        table.output().at(i).initially_from(&[&["joint.start"]]).real(
-            format!("predicted.joint[{n}].position"),
-            &unit::RADIAN,
-            Bounds::ANY,
-            format!("Predicted angle of joint {n}"),
-            |d, i| &mut d.outputs.predicted_position[i],
-        );
-    }
-    if let Some(Balancing { name, place, units: [position, ..], .. }) = Balancing::new(structure.balance) {
-        table.output().at(structure.links).initially_from(&[BALANCE]).real(
-            format!("predicted.{name}.position"),
-            position,
-            Bounds::ANY,
-            format!("{place}, predicted"),
-            |d, i| &mut d.outputs.predicted_position[i],
-        );
-    }
-    table.group(Causality::Output, Variability::Discrete).initially_from(&[PLAN]).choice(
-        "ik.status",
-        "How the present rates came about",
-        |d, _| &mut d.outputs.status,
-    );
-    table
-        .output()
-        .initially_from(&[PLAN])
-        .real(
-            "ik.min_singular_value",
-            &unit::METRE,
-            Bounds::ANY,
-            "Smallest singular value of the generalized Jacobian of the end effector's position",
-            |d, _| &mut d.outputs.min_singular_value,
-        )
-        .real(
-            "ik.velocity_residual",
-            &unit::METRE_PER_SECOND,
-            Bounds::ANY,
-            "How far the present rates miss the wanted mean velocity of the end effector",
-            |d, _| &mut d.outputs.velocity_residual,
-        )
-        .real(
-            "ik.moment_residual",
-            &unit::NEWTON_METRE,
-            Bounds::ANY,
-            "Predicted mean moment of all that the UAV carries on the UAV under the present rates",
-            |d, _| &mut d.outputs.moment_residual,
-        );
-    table.output().real(
-        "ik.late_miss",
-        &unit::METRE,
-        Bounds::ANY,
-        "How far the finished plan has ended from where it said it would, relative to the reference, because the host's \
-         steps, or an external reference, were not those that it was made for",
-        |d, _| &mut d.outputs.late_miss,
-    );
 }
 
 #[cfg(test)]

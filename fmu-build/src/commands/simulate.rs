@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
-use anyhow::{Result, anyhow};
+use anyhow::{Result, anyhow, bail};
 use fmu_build::host::coupling::Schedule;
 use fmu_build::host::record::{Names, write_csv};
 use fmu_build::host::run::run;
+use fmu_build::study::verdict::Verdict;
 use fmu_build::{files, report};
 
 use super::{Pairs, Progress, speed};
@@ -33,13 +34,15 @@ pub fn execute(arguments: &SimulateArguments, out: &Path) -> Result<()> {
     progress.finish();
     let run = run?;
 
-    let report = report::single::report(&run, &schedule)?;
+    let verdict = Verdict::of(&run)?;
+    let report = report::single::report(&run, &verdict, &schedule)?;
     let (csv, page) = (out.join(format!("{}.csv", scenario.id)), out.join(format!("{}.html", scenario.id)));
     let files = [write_csv(&csv, &[("", &run.recording)], 1)?, report.write(&page)?];
-    say(format_args!("{}: {}\n\n{}\n", scenario.id, scenario.title, report.table))?;
+    say(format_args!("{verdict}\n\n{}: {}\n\n{}\n", scenario.id, scenario.title, report.table))?;
     remark(format_args!("{}\n", speed(&[&run])))?;
     wrote(&files)?;
     match run.stopped {
+        None if arguments.strict && !verdict.is_good() => bail!("--strict: {}", verdict.summary()),
         None => Ok(()),
         Some(stopped) => Err(anyhow!(stopped).context("the files hold what came out until then")),
     }

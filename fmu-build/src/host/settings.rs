@@ -1,6 +1,7 @@
 //! The parameters of a run as the named values that a unit takes.
 
 use uam::fmi::Model;
+use uam::variables::declare::Part;
 use uam::variables::{Causality, Kind};
 use uam::{Parameters, Structure};
 
@@ -13,19 +14,19 @@ use crate::package::interface::{Interface, Variable};
 pub fn named_values<M>(structure: Structure, parameters: &Parameters) -> Vec<(String, Value)>
 where
     M: Model<Structure = Structure>,
-    M::Data: AsMut<Parameters>,
+    M::Data: Part<Parameters>,
 {
     let mut data = M::start(structure);
-    data.as_mut().clone_from(parameters);
+    data.part_mut().clone_from(parameters);
     M::table(structure)
         .variables()
         .iter()
         .filter(|variable| variable.causality == Causality::Parameter)
         .map(|variable| {
             let value = match variable.kind {
-                Kind::Real { at, .. } => Value::Real(*at(&mut data, variable.index)),
-                Kind::Boolean { at } => Value::Boolean(*at(&mut data, variable.index)),
-                Kind::Enumeration { at } => Value::Integer(at(&mut data, variable.index).number()),
+                Kind::Real { at, .. } => Value::Real(*at.get(&data)),
+                Kind::Boolean { at } => Value::Boolean(*at.get(&data)),
+                Kind::Enumeration { at } => Value::Integer(at.get(&data).number()),
             };
             (variable.name.clone(), value)
         })
@@ -37,7 +38,7 @@ where
 pub fn changes<M>(structure: Structure, parameters: &Parameters) -> Vec<Variable>
 where
     M: Model<Structure = Structure>,
-    M::Data: AsMut<Parameters>,
+    M::Data: Part<Parameters>,
 {
     let known = Design::from(structure);
     let own = Design { parameters: parameters.clone(), ..known.clone() };

@@ -5,6 +5,7 @@ use uam::parameters::defaults;
 use uam::scenarios::{self, Scenario};
 use uam::units::controller::ControllerUnit;
 use uam::units::plant::PlantUnit;
+use uam::variables::declare::Part;
 use uam::{Parameters, Structure};
 
 /// Everything in which one pair of units differs from another.
@@ -46,10 +47,10 @@ pub fn check(structure: Structure, parameters: &Parameters) -> uam::Result<()> {
         parameters: &Parameters,
     ) -> uam::Result<()>
     where
-        M::Data: AsMut<Parameters>,
+        M::Data: Part<Parameters>,
     {
         let mut data = M::start(structure);
-        data.as_mut().clone_from(parameters);
+        data.part_mut().clone_from(parameters);
         M::initialize(structure, &mut data, 0.0).map(|_| ())
     }
     begin::<PlantUnit>(structure, parameters)?;
@@ -90,10 +91,10 @@ impl Design {
     pub fn unit<M>(&self) -> Identity<M>
     where
         M: Model<Structure = Structure>,
-        M::Data: AsMut<Parameters>,
+        M::Data: Part<Parameters>,
     {
         let mut unit = Identity::<M> { naming: self.naming, ..Identity::of(self.structure) };
-        unit.start.as_mut().clone_from(&self.parameters);
+        unit.start.part_mut().clone_from(&self.parameters);
         unit
     }
 }

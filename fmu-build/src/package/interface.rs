@@ -2,6 +2,7 @@
 
 use uam::fmi::v2::Capabilities;
 use uam::fmi::{Model, Naming, start_file};
+use uam::variables::declare::Part;
 use uam::variables::options::Item;
 use uam::variables::unit::PhysicalUnit;
 use uam::variables::{self, Bounds, Causality, Kind, Variability};
@@ -94,30 +95,26 @@ impl Interface {
     pub fn of<M>(design: &Design) -> Self
     where
         M: Model<Structure = Structure>,
-        M::Data: AsMut<Parameters>,
+        M::Data: Part<Parameters>,
     {
         let unit = design.unit::<M>();
         let table = M::table(unit.structure);
-        let mut data = unit.start.clone();
-        let integrals = table.integrals(&mut data);
-        let integral_of = |derivative| integrals.iter().find(|(position, _)| *position == derivative);
         let is_parameter = |variable: &variables::Variable<M::Data>| variable.causality == Causality::Parameter;
         let variables = table
             .variables()
             .iter()
-            .enumerate()
-            .map(|(position, variable)| Variable {
+            .map(|variable| Variable {
                 name: unit.naming.of(&variable.name),
                 description: variable.description.clone(),
                 causality: variable.causality,
                 variability: variable.variability,
-                value: Value::read(variable, &mut data),
+                value: Value::read(variable, &unit.start),
                 initially_from: (0..)
                     .zip(table.variables())
                     .filter(|(_, other)| is_parameter(other) && variable.initially_depends_on(&other.name))
                     .map(|(position, _)| position)
                     .collect(),
-                derivative_of: integral_of(position).map(|(_, integral)| *integral),
+                derivative_of: variable.derivative_of,
             })
             .collect();
         Self {
@@ -191,12 +188,12 @@ impl Variable {
 }
 
 impl Value {
-    fn read<D>(variable: &variables::Variable<D>, data: &mut D) -> Self {
+    fn read<D>(variable: &variables::Variable<D>, data: &D) -> Self {
         match variable.kind {
-            Kind::Real { unit, bounds, at } => Self::Real { unit, bounds, start: *at(data, variable.index) },
-            Kind::Boolean { at } => Self::Boolean { start: *at(data, variable.index) },
+            Kind::Real { unit, bounds, at } => Self::Real { unit, bounds, start: *at.get(data) },
+            Kind::Boolean { at } => Self::Boolean { start: *at.get(data) },
             Kind::Enumeration { at } => {
-                let choice = at(data, variable.index);
+                let choice = at.get(data);
                 Self::Enumeration {
                     options: Enumeration {
                         name: choice.type_name(),

@@ -7,14 +7,15 @@ use super::{Error, Report, Series, Topic, figures, style};
 use crate::host::coupling::Schedule;
 use crate::host::run::Run;
 use crate::study::claims::{self, Numbers, Quantity, Row, Table};
+use crate::study::verdict::Verdict;
 
-/// Measured quantities and all figures of a run.
+/// The verdict on a run, its measured quantities, and all figures.
 ///
 /// What the thesis says is left out unless the run has the length and the step of the thesis.
 ///
 /// # Errors
 /// If a figure cannot be drawn.
-pub fn report(run: &Run, schedule: &Schedule) -> Result<Report, Error> {
+pub fn report(run: &Run, verdict: &Verdict, schedule: &Schedule) -> Result<Report, Error> {
     let scenario = &run.scenario;
     let discretization = scenario.parameters.ik.discretization.name();
     let as_in_thesis = schedule.stop() - schedule.start() == scenario.duration && schedule.step() == scenario.step;
@@ -36,12 +37,12 @@ pub fn report(run: &Run, schedule: &Schedule) -> Result<Report, Error> {
     Ok(Report {
         title: format!("{}: {}", scenario.id, scenario.title),
         introduction: html! {
+            (super::verdict(verdict))
             p {
                 "Both FMUs (" (scenario.structure) "), coupled for " (schedule.stop() - schedule.start())
                 " s in communication steps of " (schedule.step()) " s; discretization of the inverse kinematics: "
                 code { (discretization) } "."
             }
-            @if let Some(complaint) = run.complaint() { p { strong { "The run did not reach its end: " (complaint) } } }
         },
         table,
         figures,

@@ -313,7 +313,7 @@ impl<M: Model> Instance<M> {
             if variable.on_demand {
                 now.observe()?;
             }
-            *value = T::read(variable, &mut now.data).ok_or_else(|| values::mismatch(variable, T::TYPES))?;
+            *value = T::read(variable, &now.data).ok_or_else(|| values::mismatch(variable, T::TYPES))?;
         }
         Ok(())
     }
@@ -363,10 +363,10 @@ impl<M: Model> Instance<M> {
     #[inline]
     fn go_to(&mut self, time: f64) {
         self.now.time = time;
-        if let [Variable { causality: Causality::Independent, kind: Kind::Real { at, .. }, index, .. }, ..] =
+        if let [Variable { causality: Causality::Independent, kind: Kind::Real { at, .. }, .. }, ..] =
             self.table.variables()
         {
-            *at(&mut self.now.data, *index) = time;
+            *at.get_mut(&mut self.now.data) = time;
         }
     }
 }

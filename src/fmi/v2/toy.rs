@@ -7,9 +7,8 @@ use crate::fmi::{CommunicationStep, Model};
 use crate::memory;
 use crate::options;
 use crate::pass;
-use crate::variables::options::Choice;
-use crate::variables::unit;
-use crate::variables::{Bounds, Causality, Derivative, Table, Variability};
+use crate::variables::Table;
+use crate::variables::declare::declare;
 
 options! {
     #[doc = " Sense of the integration."]
@@ -105,46 +104,43 @@ impl Model for Toy {
     }
 
     fn table(size: Size) -> Table<Data> {
-        let mut table = Table::default();
-        table.group(Causality::Independent, Variability::Continuous).real(
-            "time",
-            &unit::SECOND,
-            Bounds::ANY,
-            "Time",
-            |d: &mut Data, _| &mut d.time,
-        );
-        table
-            .fixed()
-            .real("gain", &unit::ONE, Bounds::POSITIVE, "Gain, and position at the start", |d, _| &mut d.gain)
-            .real("limit", &unit::ONE, Bounds::ANY, "Largest gain", |d, _| &mut d.limit);
-        table.tunable().real("leak", &unit::ONE, Bounds::NON_NEGATIVE, "Decay", |d, _| &mut d.leak);
-        table.fixed().choice("direction", "Sense", |d, _| &mut d.direction as &mut dyn Choice);
-        table.input().real("rate", &unit::METRE_PER_SECOND, Bounds::ANY, "Rate", |d, _| &mut d.rate);
-        table.group(Causality::Input, Variability::Discrete).boolean("hold", "Stand still", |d, _| &mut d.hold).choice(
-            "fault",
-            "Fail",
-            |d, _| &mut d.fault as &mut dyn Choice,
-        );
-        table.output().real("position", &unit::METRE, Bounds::ANY, "Position", |d, _| &mut d.position).real(
-            "speed",
-            &unit::METRE_PER_SECOND,
-            Bounds::ANY,
-            "Speed in the last step",
-            |d, _| &mut d.speed,
-        );
-        table
-            .group(Causality::Output, Variability::Discrete)
-            .boolean("held", "Whether it stands still", |d, _| &mut d.held);
-        table.output().real("square", &unit::ONE, Bounds::ANY, "Square of the position", |d, _| &mut d.square);
-        if size == Size::Large {
-            table.tunable().real("extra", &unit::ONE, Bounds::ANY, "Only for large toys", |d, _| &mut d.extra);
+        let mut table = Table::<Data>::default();
+        declare! { table.independent(), Data;
+            "time" [SECOND] "Time" |d, _| d.time;
         }
-        table.differentiate(&[
-            ("rate", Derivative::Given(|d, _, slope| d.push = slope)),
-            ("position", Derivative::At(|d, _| &mut d.speed)),
-            ("speed", Derivative::Constant(0.0)),
-        ]);
-        table.postpone(&["square"]);
+        declare! { table.fixed(), Data;
+            "gain" [ONE > 0] "Gain, and position at the start" |d, _| d.gain;
+            "limit" [ONE] "Largest gain" |d, _| d.limit;
+        }
+        declare! { table.tunable(), Data;
+            "leak" [ONE >= 0] "Decay" |d, _| d.leak;
+        }
+        declare! { table.fixed(), Data;
+            "direction" [choice] "Sense" |d, _| d.direction;
+        }
+        declare! { table.input(), Data;
+            "rate" [METRE_PER_SECOND] "Rate" |d, _| d.rate, given_derivative(|d, _, slope| d.push = slope);
+        }
+        declare! { table.discrete_input(), Data;
+            "hold" [bool] "Stand still" |d, _| d.hold;
+            "fault" [choice] "Fail" |d, _| d.fault;
+        }
+        declare! { table.output(), Data;
+            "position" [METRE] "Position" |d, _| d.position;
+            "speed" [METRE_PER_SECOND] "Speed in the last step"
+                |d, _| d.speed, derivative_of("position"), derivative(|_, _| 0.0);
+        }
+        declare! { table.discrete_output(), Data;
+            "held" [bool] "Whether it stands still" |d, _| d.held;
+        }
+        declare! { table.output(), Data;
+            "square" [ONE] "Square of the position" |d, _| d.square, on_demand();
+        }
+        if size == Size::Large {
+            declare! { table.tunable(), Data;
+                "extra" [ONE] "Only for large toys" |d, _| d.extra;
+            }
+        }
         table
     }
 

@@ -155,13 +155,12 @@ impl Case {
 
     /// Names and values of all parameters.
     pub fn values(&self) -> Vec<(String, f64)> {
-        let mut copy = self.parameters.clone();
         let table = Parameters::table(self.structure);
         let values = table.variables().iter().map(|variable| {
             let value = match variable.kind {
-                Kind::Real { at, .. } => *at(&mut copy, variable.index),
-                Kind::Boolean { at } => f64::from(u8::from(*at(&mut copy, variable.index))),
-                Kind::Enumeration { at } => f64::from(at(&mut copy, variable.index).number()),
+                Kind::Real { at, .. } => *at.get(&self.parameters),
+                Kind::Boolean { at } => f64::from(u8::from(*at.get(&self.parameters))),
+                Kind::Enumeration { at } => f64::from(at.get(&self.parameters).number()),
             };
             (variable.name.clone(), value)
         });
@@ -276,7 +275,7 @@ fn change(draw: &mut Draw, structure: Structure, p: &Parameters, steps: usize) -
         let variable = tunable[draw.below(tunable.len())];
         let Kind::Real { at, .. } = variable.kind else { continue };
         let factor = if variable.name.ends_with("limit") { draw.between(1.0, 2.0) } else { draw.between(0.8, 1.25) };
-        let value = at(&mut copy, variable.index);
+        let value = at.get_mut(&mut copy);
         *value *= factor;
         values.push((variable.name.clone(), *value));
     }

@@ -22,15 +22,19 @@ impl<M: Model> Instance<M> {
         }
         for ((reference, order), value) in references.iter().zip(orders).zip(values) {
             let variable = lookup(self.table.variables(), *reference)?;
-            given(variable, *order)?;
+            if !(takes_derivative(variable) && *order == ORDER) {
+                return Err(none(variable, *order, "an input"));
+            }
             if !value.is_finite() {
                 let name = format!("the derivative of {}", variable.name);
                 return Err(Error::OutOfBounds { name, expected: Bounds::ANY, found: *value });
             }
         }
-        for ((reference, order), value) in references.iter().zip(orders).zip(values) {
+        for (reference, value) in references.iter().zip(values) {
             let variable = lookup(self.table.variables(), *reference)?;
-            given(variable, *order)?(&mut self.now.data, variable.index, *value);
+            if let Some(Derivative::Given(take, index)) = variable.derivative {
+                take(&mut self.now.data, index, *value);
+            }
         }
         Ok(())
     }
@@ -50,10 +54,11 @@ impl<M: Model> Instance<M> {
         for ((reference, order), value) in references.iter().zip(orders).zip(values) {
             let variable = lookup(self.table.variables(), *reference)?;
             *value = match (variable.derivative, *order) {
-                (Some(Derivative::Constant(number)), ORDER) => number,
-                (Some(Derivative::At(at)), ORDER) => *at(&mut self.now.data, variable.index),
-                (_, order) => return Err(none(variable, order, "an output")),
-            };
+                (Some(Derivative::Variable(position)), ORDER) => self.table.variables()[position].real(&self.now.data),
+                (Some(Derivative::Read(read, index)), ORDER) => Some(read(&self.now.data, index)),
+                _ => None,
+            }
+            .ok_or_else(|| none(variable, *order, "an output"))?;
             if !value.is_finite() {
                 let reason = format!("the derivative of {} is {value}", variable.name);
                 return Err(Error::Outputs { time: self.now.time, reason });
@@ -63,12 +68,8 @@ impl<M: Model> Instance<M> {
     }
 }
 
-/// How to give this derivative.
-fn given<D>(variable: &Variable<D>, order: i32) -> Result<fn(&mut D, usize, f64), Error> {
-    match variable.derivative {
-        Some(Derivative::Given(give)) if order == ORDER => Ok(give),
-        _ => Err(none(variable, order, "an input")),
-    }
+fn takes_derivative<D>(variable: &Variable<D>) -> bool {
+    matches!(variable.derivative, Some(Derivative::Given(..)))
 }
 
 fn none<D>(variable: &Variable<D>, order: i32, role: &'static str) -> Error {

@@ -161,7 +161,7 @@ impl<M: Model> Instance<M> {
         }
         for variable in self.table.variables() {
             if let Kind::Real { bounds, at, .. } = variable.kind {
-                let found = *at(data, variable.index);
+                let found = *at.get(data);
                 if !bounds.admit(found) {
                     return Err(format!("{} must be {bounds}, but is {found}", variable.name));
                 }
@@ -185,9 +185,9 @@ impl<M: Model> Snapshot<M> {
         for variable in table.variables() {
             tape.name(&variable.name);
             match variable.kind {
-                Kind::Real { at, .. } => at(data, variable.index).pass(tape),
-                Kind::Boolean { at } => at(data, variable.index).pass(tape),
-                Kind::Enumeration { at } => tape.choice(at(data, variable.index)),
+                Kind::Real { at, .. } => at.get_mut(data).pass(tape),
+                Kind::Boolean { at } => at.get_mut(data).pass(tape),
+                Kind::Enumeration { at } => tape.choice(at.get_mut(data)),
             }
         }
         M::pass_unnamed(data, tape);

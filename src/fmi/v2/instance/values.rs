@@ -22,16 +22,16 @@ pub trait Scalar: Copy {
     const TYPES: &'static str;
 
     /// The value of a variable; `None` if the variable cannot be read as this type.
-    fn read<D>(variable: &Variable<D>, data: &mut D) -> Option<Self>;
+    fn read<D>(variable: &Variable<D>, data: &D) -> Option<Self>;
 
     /// Whether a variable can take this value.
-    fn fits<D>(self, variable: &Variable<D>, data: &mut D) -> bool;
+    fn fits<D>(self, variable: &Variable<D>, data: &D) -> bool;
 
     /// Gives a variable that this value fits the value.
     fn assign<D>(self, variable: &Variable<D>, data: &mut D);
 
     /// Why it does not fit.
-    fn refusal<D>(self, variable: &Variable<D>, data: &mut D) -> Error;
+    fn refusal<D>(self, variable: &Variable<D>, data: &D) -> Error;
 }
 
 impl Scalar for Real {
@@ -40,40 +40,40 @@ impl Scalar for Real {
     const TYPES: &'static str = "Real";
 
     #[inline]
-    fn read<D>(variable: &Variable<D>, data: &mut D) -> Option<Self> {
+    fn read<D>(variable: &Variable<D>, data: &D) -> Option<Self> {
         Some(match variable.kind {
             // Which zero comes out of `max` and `min` is left to each processor: hosts see the one without a sign.
-            Kind::Real { at, .. } => *at(data, variable.index) + 0.0,
-            Kind::Boolean { at } => f64::from(u8::from(*at(data, variable.index))),
-            Kind::Enumeration { at } => f64::from(at(data, variable.index).number()),
+            Kind::Real { at, .. } => *at.get(data) + 0.0,
+            Kind::Boolean { at } => f64::from(u8::from(*at.get(data))),
+            Kind::Enumeration { at } => f64::from(at.get(data).number()),
         })
     }
 
     #[inline]
-    fn fits<D>(self, variable: &Variable<D>, data: &mut D) -> bool {
+    fn fits<D>(self, variable: &Variable<D>, data: &D) -> bool {
         match variable.kind {
             Kind::Real { bounds, .. } => bounds.admit(self),
             Kind::Boolean { .. } => self == 0.0 || self == 1.0,
-            Kind::Enumeration { at } => alternative(self, at(data, variable.index).items()).is_some(),
+            Kind::Enumeration { at } => alternative(self, at.get(data).items()).is_some(),
         }
     }
 
     #[inline]
     fn assign<D>(self, variable: &Variable<D>, data: &mut D) {
         match variable.kind {
-            Kind::Real { at, .. } => *at(data, variable.index) = self,
-            Kind::Boolean { at } => *at(data, variable.index) = self == 1.0,
-            Kind::Enumeration { at } => choose(at(data, variable.index), self),
+            Kind::Real { at, .. } => *at.get_mut(data) = self,
+            Kind::Boolean { at } => *at.get_mut(data) = self == 1.0,
+            Kind::Enumeration { at } => choose(at.get_mut(data), self),
         }
     }
 
     #[cold]
-    fn refusal<D>(self, variable: &Variable<D>, data: &mut D) -> Error {
+    fn refusal<D>(self, variable: &Variable<D>, data: &D) -> Error {
         let name = variable.name.clone();
         match variable.kind {
             Kind::Real { bounds, .. } => Error::OutOfBounds { name, expected: bounds, found: self },
             Kind::Boolean { .. } => Error::NotBoolean { name, found: self },
-            Kind::Enumeration { at } => Error::NotAnItem { name, items: at(data, variable.index).items(), found: self },
+            Kind::Enumeration { at } => Error::NotAnItem { name, items: at.get(data).items(), found: self },
         }
     }
 }
@@ -83,14 +83,14 @@ impl Scalar for Integer {
     const SET: Call = Call::SetInteger;
     const TYPES: &'static str = "Integer or Enumeration";
 
-    fn read<D>(variable: &Variable<D>, data: &mut D) -> Option<Self> {
+    fn read<D>(variable: &Variable<D>, data: &D) -> Option<Self> {
         match variable.kind {
-            Kind::Enumeration { at } => Some(at(data, variable.index).number()),
+            Kind::Enumeration { at } => Some(at.get(data).number()),
             _ => None,
         }
     }
 
-    fn fits<D>(self, variable: &Variable<D>, data: &mut D) -> bool {
+    fn fits<D>(self, variable: &Variable<D>, data: &D) -> bool {
         matches!(variable.kind, Kind::Enumeration { .. }) && f64::from(self).fits(variable, data)
     }
 
@@ -99,7 +99,7 @@ impl Scalar for Integer {
     }
 
     #[cold]
-    fn refusal<D>(self, variable: &Variable<D>, data: &mut D) -> Error {
+    fn refusal<D>(self, variable: &Variable<D>, data: &D) -> Error {
         match variable.kind {
             Kind::Enumeration { .. } => f64::from(self).refusal(variable, data),
             _ => mismatch(variable, Self::TYPES),
@@ -112,25 +112,25 @@ impl Scalar for Boolean {
     const SET: Call = Call::SetBoolean;
     const TYPES: &'static str = "Boolean";
 
-    fn read<D>(variable: &Variable<D>, data: &mut D) -> Option<Self> {
+    fn read<D>(variable: &Variable<D>, data: &D) -> Option<Self> {
         match variable.kind {
-            Kind::Boolean { at } => Some((*at(data, variable.index)).into()),
+            Kind::Boolean { at } => Some((*at.get(data)).into()),
             _ => None,
         }
     }
 
-    fn fits<D>(self, variable: &Variable<D>, _data: &mut D) -> bool {
+    fn fits<D>(self, variable: &Variable<D>, _data: &D) -> bool {
         matches!(variable.kind, Kind::Boolean { .. })
     }
 
     fn assign<D>(self, variable: &Variable<D>, data: &mut D) {
         if let Kind::Boolean { at } = variable.kind {
-            *at(data, variable.index) = self.holds();
+            *at.get_mut(data) = self.holds();
         }
     }
 
     #[cold]
-    fn refusal<D>(self, variable: &Variable<D>, _data: &mut D) -> Error {
+    fn refusal<D>(self, variable: &Variable<D>, _data: &D) -> Error {
         mismatch(variable, Self::TYPES)
     }
 }

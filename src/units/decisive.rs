@@ -4,6 +4,9 @@
 /// Where the links are.
 pub const GEOMETRY: &[&str] = &["mount", "link.length", "joint.start"];
 
+/// The angles of the joints.
+pub const ANGLES: &[&str] = &["joint.start"];
+
 /// Moments of the links' weight about the joints, per gravity.
 pub const LINKS: &[&str] = &["link.mass", "link.length", "link.com", "joint.start"];
 
