@@ -12,7 +12,7 @@ use fmu_build::{files, report};
 
 use super::{Pairs, Progress, speed};
 use crate::cli::SimulateArguments;
-use crate::terminal::{say, wrote};
+use crate::terminal::{remark, say, wrote};
 
 pub fn execute(arguments: &SimulateArguments, out: &Path) -> Result<()> {
     let mut scenario = super::scenario(&arguments.scenario)?;
@@ -45,7 +45,7 @@ pub fn execute(arguments: &SimulateArguments, out: &Path) -> Result<()> {
         report.write(&out.join(file("html")))?,
     ];
     say(format_args!("{verdict}\n\n{}: {}\n\n{}\n", scenario.id, scenario.title, report.table))?;
-    say(format_args!("{}\n", speed(&[&run])))?;
+    remark(format_args!("{}\n", speed(&[&run])))?;
     wrote(&files)?;
     match run.stopped {
         None if arguments.strict && !verdict.is_good() => bail!("--strict: {}", verdict.summary()),
