@@ -23,6 +23,7 @@ use crate::files::{self, Written};
 use crate::formats::html::document;
 use crate::host::record::NotRecorded;
 use crate::host::run::Run;
+use crate::package::metadata::GENERATION_TOOL;
 use crate::study::claims::Table;
 use crate::study::particulars;
 
@@ -115,7 +116,7 @@ fn verdict(sentences: &[String]) -> Markup {
 
 /// Which program made a page, and when.
 fn made_by() -> Markup {
-    html! { p { "Made by " (particulars::program()) " on " (particulars::today()) "." } }
+    html! { p { "Made by " (GENERATION_TOOL) " on " (particulars::today()) "." } }
 }
 
 fn table(table: &Table) -> Markup {

@@ -10,6 +10,7 @@ use uam::{Parameters, Structure};
 use crate::host::coupling::Schedule;
 use crate::host::record::TIME;
 use crate::host::run::Run;
+use crate::package::metadata::GENERATION_TOOL;
 use crate::study::verdict::Verdict;
 
 /// All that a file beside the csv of a run says. Quantities are in the SI units that stand with them.
@@ -93,7 +94,7 @@ impl Particulars {
     pub fn of(run: &Run, verdict: &Verdict, schedule: &Schedule, csv: &str) -> Self {
         let scenario = &run.scenario;
         Self {
-            program: program(),
+            program: GENERATION_TOOL.to_owned(),
             date: today(),
             csv: csv.to_owned(),
             id: scenario.id.clone(),
@@ -115,12 +116,6 @@ impl Particulars {
     pub fn to_json(&self) -> serde_json::Result<String> {
         serde_json::to_string_pretty(self).map(|text| text + "\n")
     }
-}
-
-/// Name and version of this program.
-#[must_use]
-pub fn program() -> String {
-    format!("uam {}", env!("CARGO_PKG_VERSION"))
 }
 
 /// The present day in UTC: year, month, day.
