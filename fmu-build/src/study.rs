@@ -1,7 +1,9 @@
 //! Scenarios with each discretization, beside what the thesis says; among them the pick-up of 4.3.
 
 pub mod budget;
+pub mod check;
 pub mod claims;
+pub mod own_vehicle;
 pub mod reach;
 pub mod variation;
 
