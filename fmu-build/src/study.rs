@@ -3,6 +3,7 @@
 pub mod budget;
 pub mod check;
 pub mod claims;
+pub mod own_file;
 pub mod own_vehicle;
 pub mod reach;
 pub mod variation;

@@ -113,6 +113,5 @@ pub fn check(scenario: &Scenario) -> uam::Result<Report> {
 
 /// Whether a payload is picked up, or a support pushes, within a run of this `duration` \[s\].
 fn grasps(parameters: &Parameters, duration: f64) -> bool {
-    parameters.payload.grasp_time < duration
-        && (parameters.payload.mass > 0.0 || parameters.support.stiffness > 0.0)
+    parameters.payload.grasp_time < duration && (parameters.payload.mass > 0.0 || parameters.support.stiffness > 0.0)
 }

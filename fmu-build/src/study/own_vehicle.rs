@@ -212,7 +212,7 @@ pub fn three_digits(value: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::check::{check, Drift};
+    use crate::study::check::{Drift, check};
 
     /// Every vehicle that `init` writes without further wishes.
     fn all() -> impl Iterator<Item = Choices> {

@@ -159,7 +159,7 @@ mod tests {
         parameters.joints[1].upper = 1.0;
         let start = Statics::at_start(structure, &parameters, false).unwrap();
         assert_eq!(findings(structure, &parameters, &start), []);
-        assert_eq!(to_stops(structure, &parameters), []);
+        assert!(to_stops(structure, &parameters).is_empty());
         parameters.ik.resolution = Resolution::LeastSquares;
         let [Finding::BeyondStop { name, nearest, .. }] = &findings(structure, &parameters, &start)[..] else {
             panic!("within")

@@ -87,8 +87,11 @@ impl Loop {
         }
         let Some(found) = Schur::try_new(matrix, f64::EPSILON, ITERATIONS) else { return Vec::new() };
         let mode = |value: &nalgebra::Complex<f64>| {
-            let (re, im) =
-                if h > 0.0 { (value.re.hypot(value.im).ln() / h, value.im.atan2(value.re) / h) } else { (value.re, value.im) };
+            let (re, im) = if h > 0.0 {
+                (value.re.hypot(value.im).ln() / h, value.im.atan2(value.re) / h)
+            } else {
+                (value.re, value.im)
+            };
             Mode { decay: -re, frequency: im.abs() }
         };
         let mut modes: Vec<Mode> = found.complex_eigenvalues().iter().map(mode).collect();
@@ -106,7 +109,9 @@ impl Loop {
     fn remedy(&self, control: Control) -> Remedy {
         let largest = |of: Self| {
             let halves = (0..60).map(|n| 0.5 * self.sample_time / f64::from(1 << n.min(30)));
-            halves.take_while(|time| *time > SHORTEST_SAMPLE).find(|&sample_time| Self { sample_time, ..of }.is_stable())
+            halves
+                .take_while(|time| *time > SHORTEST_SAMPLE)
+                .find(|&sample_time| Self { sample_time, ..of }.is_stable())
         };
         if (Self { sample_time: 0.0, ..*self }).is_stable() {
             return Remedy::SampleTime(largest(*self).unwrap_or(0.0));

@@ -97,9 +97,7 @@ fn inherited(structure: Structure, parameters: &Parameters) -> Vec<Inherited> {
     let same_payload = payload.mass == known.payload.mass && payload.grasp_time == known.payload.grasp_time;
     let same_path = parameters.reference.kind == ReferenceKind::Path && parameters.reference == known.reference;
     let mut inherited = Vec::new();
-    inherited.extend(
-        same_payload.then_some(Inherited::Payload { mass: payload.mass, grasp_time: payload.grasp_time }),
-    );
+    inherited.extend(same_payload.then_some(Inherited::Payload { mass: payload.mass, grasp_time: payload.grasp_time }));
     inherited.extend(same_path.then_some(Inherited::Path));
     inherited
 }

@@ -1,0 +1,114 @@
+//! The numbers behind the verdict, in sentences.
+
+use fmu_build::study::check::hover::Mode;
+use fmu_build::study::check::{Demand, Drift, Imbalance, Report};
+use uam::autopilot::AutopilotMode;
+use uam::scenarios::Scenario;
+
+/// One paragraph a subject.
+pub fn sentences(scenario: &Scenario, report: &Report) -> Vec<String> {
+    vec![balance(report), arm(report), hover(scenario, report), path(scenario, report)]
+}
+
+/// Where an imbalance leads in the end.
+pub fn drift(imbalance: &Imbalance) -> String {
+    let side = |value: f64| if value < 0.0 { "to the left" } else { "to the right" };
+    match imbalance.drift {
+        Drift::Held => "The ideal autopilot holds the roll against it.".to_owned(),
+        Drift::Unknown => "What follows is up to the external autopilot.".to_owned(),
+        Drift::Tumbles => "Nothing brings the roll back: the UAV tumbles.".to_owned(),
+        Drift::Speed(v) => format!(
+            "Nobody holds the horizontal position: the UAV goes on drifting {} at {:.2e} m/s, {:.3} m in ten seconds.",
+            side(v),
+            v.abs(),
+            10.0 * v.abs()
+        ),
+        Drift::Acceleration(a) => format!(
+            "Nobody holds the horizontal position, and without autopilot.roll.ki the roll stays: the UAV goes {} with \
+             {:.2e} m/s2, {:.3} m in ten seconds.",
+            side(a),
+            a.abs(),
+            50.0 * a.abs()
+        ),
+    }
+}
+
+fn balance(report: &Report) -> String {
+    let imbalance = &report.imbalance;
+    let roll =
+        imbalance.roll.map_or_else(String::new, |roll| format!(", a roll of {:.3} degrees at most", roll.to_degrees()));
+    let mut text =
+        format!("Balance: what the UAV carries gives {:.2e} N m{roll}. {}", imbalance.moment, drift(imbalance));
+    if let Some((n, angle)) = imbalance.joints.first() {
+        text += &format!(" Balanced with \"joint[{n}].start\" = {angle:.6} rad alone");
+        if let Some((place, within)) = imbalance.counterweight {
+            text += &format!(", or counterweight.start = {place:.6} m");
+            text += if within { "" } else { " (beyond its stroke)" };
+        }
+        text += ".";
+    }
+    text
+}
+
+fn arm(report: &Report) -> String {
+    let mut text = format!(
+        "Arm: {:.3} m long. The smallest singular value of the end effector's Jacobian is {:.4} m at the start",
+        report.reach, report.smallest_singular_value
+    );
+    if let Some(both) = report.with_moment {
+        text += &format!(", {both:.4} m with the moment on the UAV as a third task");
+    }
+    text += ".";
+    let nearest = report.to_stops.iter().copied().enumerate().min_by(|(_, a), (_, b)| a.total_cmp(b));
+    if let Some((i, distance)) = nearest {
+        text += &format!(" Nearest to a stop is joint {}, {distance:.2} rad away.", i + 1);
+    }
+    text
+}
+
+fn hover(scenario: &Scenario, report: &Report) -> String {
+    let Some(hover) = &report.hover else {
+        return match scenario.parameters.autopilot.mode {
+            AutopilotMode::Ideal => "Hover: ideal, altitude and roll are held whatever comes.",
+            _ => "Hover: up to an external autopilot.",
+        }
+        .to_owned();
+    };
+    let sampled = match scenario.parameters.autopilot.sample_time {
+        0.0 => "continuous".to_owned(),
+        time => format!("sampled every {time} s"),
+    };
+    format!(
+        "Hover ({sampled}; eigenvalues in 1/s, linearized): altitude {}; roll {}. Nobody holds the horizontal position.",
+        modes(&hover.altitude),
+        modes(&hover.roll)
+    )
+}
+
+fn modes(modes: &[Mode]) -> String {
+    let mode = |Mode { decay, frequency }: &Mode| {
+        // Pairs are conjugate.
+        let swing = if *frequency > 1e-9 { format!(" ± {frequency:.2}i") } else { String::new() };
+        format!("{:.2}{swing}", -decay)
+    };
+    let mut texts: Vec<String> = modes.iter().map(mode).collect();
+    texts.dedup();
+    let least =
+        modes.iter().map(|Mode { decay, frequency }| decay / decay.hypot(*frequency)).fold(f64::INFINITY, f64::min);
+    format!("{} (least damping ratio {least:.2})", texts.join(", "))
+}
+
+fn path(scenario: &Scenario, report: &Report) -> String {
+    let Some(Demand { farthest, nearest, speed, acceleration, .. }) = &report.demand else {
+        return "Path: none, the hand is to rest or follows inputs.".to_owned();
+    };
+    let needed = speed / report.smallest_singular_value;
+    let limits = scenario.parameters.joints[..scenario.structure.links].iter().map(|joint| joint.rate_limit);
+    let lowest = limits.fold(f64::INFINITY, f64::min);
+    format!(
+        "Path: {:.3} m to {:.3} m from the first joint, farthest at {:.2} s, of {:.3} m that the arm is long, with the UAV \
+         where it starts. Largest speed {speed:.3} m/s, which takes up to {needed:.2} rad/s at the start (lowest limit \
+         {lowest:.2} rad/s); largest acceleration {acceleration:.3} m/s2.",
+        nearest.distance, farthest.distance, farthest.time, report.reach
+    )
+}
