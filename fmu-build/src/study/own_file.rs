@@ -18,7 +18,7 @@ const GROUPS: [(&str, &[&str]); 8] = [
     ("The counterweight, which slides along the UAV's x axis and balances the arm.", &["counterweight."]),
     (
         "Hover control of altitude and roll; nobody holds the horizontal position. These gains let both come to rest without\n\
-         # swinging: threefold poles at 2 /s and 6 /s. They grow with mass and inertia of the vehicle.",
+         # swinging, at about 2 /s and 6 /s. They grow with mass and inertia of the vehicle.",
         &["autopilot."],
     ),
     (
@@ -36,8 +36,8 @@ const GROUPS: [(&str, &[&str]); 8] = [
         &["reference.kind", "reference.leg["],
     ),
     (
-        "No payload: set a mass and when it is grasped to have one. It rests on the support, whose height is that of the hand\n\
-         # then, plus mass * gravity / stiffness.",
+        "No payload: set its mass and when it is grasped to have one, at a negative time if the hand holds it from the start.\n\
+         # Until then it rests on the support, whose height is that of the hand then, plus mass * gravity / stiffness.",
         &["payload.", "support."],
     ),
     ("What else differs from the start values of the units.", &[]),
@@ -129,10 +129,11 @@ fn value(variable: &Variable<Parameters>, parameters: &Parameters) -> String {
 }
 
 fn line(variable: &Variable<Parameters>, parameters: &Parameters) -> String {
-    let Variable { name, description, .. } = variable;
+    // What comes after the first clause is for the pages of the FMUs.
+    let (name, description) = (&variable.name, variable.description.split(';').next().unwrap_or_default());
     let meaning = match variable.kind {
         Kind::Real { unit, .. } => format!("{description} [{}]", unit.name),
-        Kind::Boolean { .. } => description.clone(),
+        Kind::Boolean { .. } => description.to_owned(),
         Kind::Enumeration { at } => {
             let items = at.get(parameters).items().iter().map(|item| item.name);
             format!("{description}: {}", items.collect::<Vec<_>>().join(", "))

@@ -98,7 +98,7 @@ pub fn own_vehicle(choices: &Choices) -> Result<Scenario, Error> {
     parameters.autopilot.roll = rounded(Control::Roll, start.inertia);
     set_path(choices, &mut parameters);
     parameters.check(structure)?;
-    let title = format!("A vehicle of its own: {structure}, no payload, a small motion there and back");
+    let title = format!("Own vehicle: {structure}, no payload, a small motion there and back");
     Ok(Scenario { id: choices.id.clone(), title, structure, parameters, duration: DURATION, step: 1e-3 })
 }
 
