@@ -7,7 +7,7 @@
 //! compile    libraries out of sources, for this machine and others
 //! package    FMUs and SSPs: descriptions, pages, archives
 //! host       FMUs loaded, coupled, run and recorded
-//! study      many runs: beside the thesis, with other numbers, with other steps
+//! study      many runs: beside the thesis, with other numbers, with other steps; vehicles before they run
 //! report     what came out, as a page
 //! ```
 //!

@@ -58,7 +58,10 @@ impl Stated {
             !is_file || lines.any(|line| line.contains(word))
         };
         // As a name, in quotes or not, or as a table with keys below.
-        Self { payload: mentions("payload.mass") || mentions("parameters.payload"), path: mentions("reference.") }
+        Self {
+            payload: mentions("payload.mass") || mentions("parameters.payload"),
+            path: mentions("reference.") || mentions("parameters.reference"),
+        }
     }
 
     /// Whether a finding stays one.

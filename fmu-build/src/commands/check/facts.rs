@@ -2,6 +2,7 @@
 
 use fmu_build::study::check::hover::Mode;
 use fmu_build::study::check::{Demand, Drift, Imbalance, Report};
+use fmu_build::study::own_vehicle::three_digits;
 use uam::autopilot::AutopilotMode;
 use uam::scenarios::Scenario;
 
@@ -18,16 +19,16 @@ pub fn drift(imbalance: &Imbalance) -> String {
         Drift::Unknown => "What follows is up to the external autopilot.".to_owned(),
         Drift::Tumbles => "Nothing brings the roll back: the UAV tumbles.".to_owned(),
         Drift::Speed(v) => format!(
-            "Nobody holds the horizontal position: the UAV goes on drifting {} at {:.2e} m/s, {:.3} m in ten seconds.",
+            "Nobody holds the horizontal position: the UAV goes on drifting {} at {:?} m/s, {:.3} m in ten seconds.",
             side(v),
-            v.abs(),
+            three_digits(v.abs()),
             10.0 * v.abs()
         ),
         Drift::Acceleration(a) => format!(
             "Nobody holds the horizontal position, and without autopilot.roll.ki the roll stays: the UAV goes {} with \
-             {:.2e} m/s2, {:.3} m in ten seconds.",
+             {:?} m/s2, {:.3} m in ten seconds.",
             side(a),
-            a.abs(),
+            three_digits(a.abs()),
             50.0 * a.abs()
         ),
     }
@@ -37,8 +38,11 @@ fn balance(report: &Report) -> String {
     let imbalance = &report.imbalance;
     let roll =
         imbalance.roll.map_or_else(String::new, |roll| format!(", a roll of {:.3} degrees at most", roll.to_degrees()));
-    let mut text =
-        format!("Balance: what the UAV carries gives {:.2e} N m{roll}. {}", imbalance.moment, drift(imbalance));
+    let mut text = format!(
+        "Balance: what the UAV carries gives {:?} N m{roll}. {}",
+        three_digits(imbalance.moment),
+        drift(imbalance)
+    );
     if let Some((n, angle)) = imbalance.joints.first() {
         text += &format!(" Balanced with \"joint[{n}].start\" = {angle:.6} rad alone");
         if let Some((place, within)) = imbalance.counterweight {
@@ -102,12 +106,16 @@ fn path(scenario: &Scenario, report: &Report) -> String {
     let Some(Demand { farthest, nearest, speed, acceleration, .. }) = &report.demand else {
         return "Path: none, the hand is to rest or follows inputs.".to_owned();
     };
-    let needed = speed / report.smallest_singular_value;
+    let rates = if report.smallest_singular_value > 1e-6 * report.reach {
+        format!("takes up to {:.2} rad/s at the start", speed / report.smallest_singular_value)
+    } else {
+        "no joint rates give at the start in every direction".to_owned()
+    };
     let limits = scenario.parameters.joints[..scenario.structure.links].iter().map(|joint| joint.rate_limit);
     let lowest = limits.fold(f64::INFINITY, f64::min);
     format!(
         "Path: {:.3} m to {:.3} m from the first joint, farthest at {:.2} s, of {:.3} m that the arm is long, with the UAV \
-         where it starts. Largest speed {speed:.3} m/s, which takes up to {needed:.2} rad/s at the start (lowest limit \
+         where it starts. Largest speed {speed:.3} m/s, which {rates} (lowest limit \
          {lowest:.2} rad/s); largest acceleration {acceleration:.3} m/s2.",
         nearest.distance, farthest.distance, farthest.time, report.reach
     )

@@ -46,8 +46,8 @@ fn quoted(name: &str) -> String {
 fn unbalanced(report: &Report) -> Sentence {
     let imbalance = &report.imbalance;
     let what = format!(
-        "The start is not balanced: what the UAV carries gives a moment of {:.3} N m about the UAV's centre of mass{}. {}",
-        imbalance.moment,
+        "The start is not balanced: what the UAV carries gives a moment of {:?} N m about the UAV's centre of mass{}. {}",
+        three_digits(imbalance.moment),
         imbalance.roll.map_or_else(String::new, |roll| format!(
             ", which rolls the UAV by up to {:.1} degrees",
             roll.to_degrees()
@@ -212,9 +212,9 @@ fn path(obstacle: &Obstacle) -> Sentence {
 
 fn unstable(instability: &Instability) -> Sentence {
     let Instability { control, held, mode, remedy } = instability;
-    let [name, noun] = match control {
-        Control::Altitude => ["altitude", "altitude"],
-        Control::Roll => ["roll", "roll"],
+    let name = match control {
+        Control::Altitude => "altitude",
+        Control::Roll => "roll",
     };
     let when = if *held { " once the payload is held" } else { "" };
     let how = match mode {
@@ -235,5 +235,5 @@ fn unstable(instability: &Instability) -> Sentence {
             sample_time.map_or_else(String::new, |time| format!(", with {}", sampled(time)))
         ),
     };
-    Sentence { what: format!("The {noun} does not come to rest{when}: {how}."), change }
+    Sentence { what: format!("The {name} does not come to rest{when}: {how}."), change }
 }

@@ -299,4 +299,55 @@ mod tests {
         parameters.autopilot.altitude = gains;
         assert_eq!(Hover::of(structure, &parameters, 30.0).unwrap().unwrap().instabilities, []);
     }
+
+    /// Rates of altitude or roll of the plant late in a run, as multiples of those early in it: one link, a bit out of
+    /// balance, whose joint rests.
+    fn growth(parameters: &Parameters, name: &str) -> f64 {
+        use uam::coupling::Unit;
+        use uam::coupling::in_process::instance;
+        use uam::parameters::Balance;
+        use uam::units::plant::PlantUnit;
+
+        let structure = Structure::new(1, Balance::None).unwrap();
+        let mut plant = instance::<PlantUnit>(structure, |data| data.parameters.clone_from(parameters));
+        plant.begin(0.0, 30.0).unwrap();
+        plant.initialize().unwrap();
+        let (selection, mut values) = plant.select(&[name]).unwrap();
+        let mut largest = [0.0_f64; 2];
+        for i in 0..3000 {
+            plant.step(0.01 * f64::from(i), 0.01).unwrap();
+            plant.read(&selection, &mut values).unwrap();
+            match i {
+                500..1000 => largest[0] = largest[0].max(values[0].abs()),
+                2500.. => largest[1] = largest[1].max(values[0].abs()),
+                _ => {}
+            }
+        }
+        largest[1] / largest[0]
+    }
+
+    /// The sample time at which the loop becomes unstable is that of the plant, to 5 %.
+    #[test]
+    fn the_plant_becomes_unstable_at_the_same_sample_time() {
+        use uam::parameters::Balance;
+
+        let structure = Structure::new(1, Balance::None).unwrap();
+        let mut parameters = default_parameters(structure);
+        parameters.joints[0].start = 1e-6;
+        parameters.autopilot.roll = Gains { kp: 40.0, ki: 35.0, kd: 9.0 };
+        let inertia = Statics::at_start(structure, &parameters, false).unwrap().inertia;
+        let stable = |sample_time| Loop { inertia, gains: parameters.autopilot.roll, sample_time }.is_stable();
+        let (mut low, mut high) = (1e-3, 1.0);
+        assert!(stable(low) && !stable(high));
+        for _ in 0..40 {
+            let middle = 0.5 * (low + high);
+            if stable(middle) { low = middle } else { high = middle }
+        }
+        for (factor, grows) in [(0.95, false), (1.05, true)] {
+            let mut sampled = parameters.clone();
+            sampled.autopilot.sample_time = factor * low;
+            let found = growth(&sampled, "base.roll_rate");
+            assert_eq!(found > 1.0, grows, "{factor}: {found}");
+        }
+    }
 }

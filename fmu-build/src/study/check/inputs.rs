@@ -85,11 +85,9 @@ fn ignored_stops(structure: Structure, parameters: &Parameters) -> Vec<usize> {
 
 fn inherited(structure: Structure, parameters: &Parameters) -> Vec<Inherited> {
     let known = default_parameters(structure);
-    let links = structure.links;
     let same_vehicle = parameters.uav == known.uav
         && parameters.mount == known.mount
-        && parameters.links[..links] == known.links[..links]
-        && (0..links).all(|i| parameters.joints[i].start == known.joints[i].start);
+        && parameters.links[..structure.links] == known.links[..structure.links];
     if same_vehicle {
         return Vec::new();
     }
