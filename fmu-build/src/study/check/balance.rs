@@ -111,7 +111,8 @@ pub fn balancing_turn(outboard: [f64; 2], rest: f64) -> Option<f64> {
     let [x, y] = outboard;
     let size = x.hypot(y);
     let share = -rest / size;
-    if !(share.abs() <= 1.0) {
+    // Without mass it is no number.
+    if share.is_nan() || share.abs() > 1.0 {
         return None;
     }
     // The turned moment is size cos(turn + angle).

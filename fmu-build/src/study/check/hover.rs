@@ -228,6 +228,7 @@ pub fn peak_roll(gains: &Gains, inertia: f64) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
+    use uam::parameters::Balance;
     use uam::scenarios::default_parameters;
 
     use super::*;
@@ -305,32 +306,29 @@ mod tests {
     fn growth(parameters: &Parameters, name: &str) -> f64 {
         use uam::coupling::Unit;
         use uam::coupling::in_process::instance;
-        use uam::parameters::Balance;
         use uam::units::plant::PlantUnit;
 
         let structure = Structure::new(1, Balance::None).unwrap();
         let mut plant = instance::<PlantUnit>(structure, |data| data.parameters.clone_from(parameters));
-        plant.begin(0.0, 30.0).unwrap();
+        plant.begin(0.0, 10.0).unwrap();
         plant.initialize().unwrap();
         let (selection, mut values) = plant.select(&[name]).unwrap();
         let mut largest = [0.0_f64; 2];
-        for i in 0..3000 {
+        for i in 0..1000 {
             plant.step(0.01 * f64::from(i), 0.01).unwrap();
             plant.read(&selection, &mut values).unwrap();
             match i {
-                500..1000 => largest[0] = largest[0].max(values[0].abs()),
-                2500.. => largest[1] = largest[1].max(values[0].abs()),
+                200..400 => largest[0] = largest[0].max(values[0].abs()),
+                800.. => largest[1] = largest[1].max(values[0].abs()),
                 _ => {}
             }
         }
         largest[1] / largest[0]
     }
 
-    /// The sample time at which the loop becomes unstable is that of the plant, to 5 %.
+    /// The sample time at which the loop becomes unstable is that of the plant, to 2 %.
     #[test]
     fn the_plant_becomes_unstable_at_the_same_sample_time() {
-        use uam::parameters::Balance;
-
         let structure = Structure::new(1, Balance::None).unwrap();
         let mut parameters = default_parameters(structure);
         parameters.joints[0].start = 1e-6;
@@ -343,7 +341,7 @@ mod tests {
             let middle = 0.5 * (low + high);
             if stable(middle) { low = middle } else { high = middle }
         }
-        for (factor, grows) in [(0.95, false), (1.05, true)] {
+        for (factor, grows) in [(0.98, false), (1.02, true)] {
             let mut sampled = parameters.clone();
             sampled.autopilot.sample_time = factor * low;
             let found = growth(&sampled, "base.roll_rate");

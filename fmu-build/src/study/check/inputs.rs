@@ -125,7 +125,7 @@ mod tests {
 
     #[test]
     fn angles_of_more_than_a_turn_are_degrees() {
-        let Finding::Degrees(degrees) = &found(|p| p.joints[1].start = 120.0)[2] else { panic!("no degrees") };
+        let [Finding::Degrees(degrees)] = &found(|p| p.joints[1].start = 120.0)[..] else { panic!("no degrees") };
         assert_eq!(degrees.name, "joint[2].start");
         assert!((degrees.radians - TAU / 3.0).abs() < 1e-15);
     }
