@@ -186,7 +186,7 @@ fn check_names_the_parameters_that_look_wrong() {
             "uav.mass = 3.0\n'link[1].length' = 0.25\n'link[2].length' = 0.25\n'link[3].length' = 0.25",
             &["payload.mass = 0.0", "payload.com = 0.25", "support.height = ", "reference.leg[1]"][..],
         ),
-        ("'joint[1].start' = -30.0", &["\"joint[1].start\" = -0.5236"]),
+        ("'joint[1].start' = -30.0", &["\"joint[1].start\" = -0.5236", "one thing looks wrong"]),
         (
             "'joint[2].start' = 0.0\n'joint[3].start' = 0.0",
             &["not balanced", "\"joint[2].start\" = 1.1987", "stretched"],
@@ -200,7 +200,7 @@ fn check_names_the_parameters_that_look_wrong() {
         ),
         ("autopilot.sample_time = 0.5", &["autopilot.sample_time = "]),
         ("'reference.leg[1].dy' = -0.4", &["reference.leg[*].dx and .dy"]),
-        ("payload.grasp_time = 0.75", &["payload.grasp_time = 1.5"]),
+        ("payload.grasp_time = 0.75", &["payload.grasp_time = 1.4", "one thing looks wrong"]),
         ("support.height = 0.0", &["catapulted", "support.height = -0.3"]),
         ("support.height = -0.5", &["carries nothing", "support.height = -0.3"]),
         (

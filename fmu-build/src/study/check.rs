@@ -81,9 +81,11 @@ pub struct Report {
 /// # Errors
 /// If its parameters are out of their bounds, or do not go together.
 pub fn check(scenario: &Scenario) -> uam::Result<Report> {
-    let Scenario { structure, parameters, duration, .. } = scenario;
+    let Scenario { structure, parameters: given, duration, .. } = scenario;
     let structure = *structure;
-    parameters.check(structure)?;
+    given.check(structure)?;
+    // What looks like degrees is a finding of its own; all others are about what was meant.
+    let parameters = &inputs::in_radians(structure, given);
     let held_from_the_start = parameters.payload.grasp_time <= 0.0;
     let start = Statics::at_start(structure, parameters, held_from_the_start)?;
     let imbalance = Imbalance::of(structure, parameters, &start);
@@ -91,7 +93,7 @@ pub fn check(scenario: &Scenario) -> uam::Result<Report> {
     let demand = Demand::of(structure, parameters, &start, *duration);
     let hover = Hover::of(structure, parameters, *duration)?;
 
-    let mut findings = inputs::findings(structure, parameters);
+    let mut findings = inputs::findings(structure, given);
     findings.extend(arm::findings(structure, parameters, &start));
     findings.extend(imbalance.matters().then_some(Finding::Unbalanced));
     findings.extend(hover.iter().flat_map(|hover| &hover.instabilities).cloned().map(Finding::Unstable));

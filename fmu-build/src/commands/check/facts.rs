@@ -6,6 +6,11 @@ use fmu_build::study::own_vehicle::three_digits;
 use uam::autopilot::AutopilotMode;
 use uam::scenarios::Scenario;
 
+/// Drifts \[m/s, m/s2\] and moments \[N m\] below this are rounding.
+const NOTHING: f64 = 1e-6;
+/// Stops farther away than this are none \[rad\].
+const FAR: f64 = std::f64::consts::TAU;
+
 /// One paragraph a subject.
 pub fn sentences(scenario: &Scenario, report: &Report) -> Vec<String> {
     vec![balance(report), arm(report), hover(scenario, report), path(scenario, report)]
@@ -18,6 +23,9 @@ pub fn drift(imbalance: &Imbalance) -> String {
         Drift::Held => "The ideal autopilot holds the roll against it.".to_owned(),
         Drift::Unknown => "What follows is up to the external autopilot.".to_owned(),
         Drift::Tumbles => "Nothing brings the roll back: the UAV tumbles.".to_owned(),
+        Drift::Speed(rate) | Drift::Acceleration(rate) if rate.abs() < NOTHING => {
+            "Nobody holds the horizontal position, but nothing drives the UAV away from the start either.".to_owned()
+        }
         Drift::Speed(v) => format!(
             "Nobody holds the horizontal position: the UAV goes on drifting {} at {:?} m/s, {:.3} m in ten seconds.",
             side(v),
@@ -36,20 +44,25 @@ pub fn drift(imbalance: &Imbalance) -> String {
 
 fn balance(report: &Report) -> String {
     let imbalance = &report.imbalance;
-    let roll =
-        imbalance.roll.map_or_else(String::new, |roll| format!(", a roll of {:.3} degrees at most", roll.to_degrees()));
+    let moment = if imbalance.moment.abs() < NOTHING { 0.0 } else { three_digits(imbalance.moment) };
+    let roll = imbalance
+        .roll
+        .map_or_else(String::new, |roll| format!(", which rolls the UAV by {:.3} degrees at most", roll.to_degrees()));
     let mut text = format!(
-        "Balance: what the UAV carries gives {:?} N m{roll}. {}",
-        three_digits(imbalance.moment),
+        "Balance: what the UAV carries gives a moment of {moment:?} N m about the UAV's centre of mass{roll}. {}",
         drift(imbalance)
     );
-    if let Some((n, angle)) = imbalance.joints.first() {
-        text += &format!(" Balanced with \"joint[{n}].start\" = {angle:.6} rad alone");
-        if let Some((place, within)) = imbalance.counterweight {
-            text += &format!(", or counterweight.start = {place:.6} m");
-            text += if within { "" } else { " (beyond its stroke)" };
-        }
-        text += ".";
+    if moment == 0.0 {
+        return text;
+    }
+    let mut starts: Vec<String> = Vec::new();
+    starts.extend(imbalance.joints.first().map(|(n, angle)| format!("\"joint[{n}].start\" = {angle:.6} (rad)")));
+    starts.extend(imbalance.counterweight.map(|(place, within)| {
+        let remark = if within { "" } else { ", beyond its stroke" };
+        format!("counterweight.start = {place:.6} (m{remark})")
+    }));
+    if !starts.is_empty() {
+        text += &format!(" Alone would balance it: {}.", starts.join(", or "));
     }
     text
 }
@@ -64,7 +77,7 @@ fn arm(report: &Report) -> String {
     }
     text += ".";
     let nearest = report.to_stops.iter().copied().enumerate().min_by(|(_, a), (_, b)| a.total_cmp(b));
-    if let Some((i, distance)) = nearest {
+    if let Some((i, distance)) = nearest.filter(|(_, distance)| *distance < FAR) {
         text += &format!(" Nearest to a stop is joint {}, {distance:.2} rad away.", i + 1);
     }
     text

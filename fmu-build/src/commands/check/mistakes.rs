@@ -84,7 +84,10 @@ fn singular(bend: &Bend) -> Sentence {
 
 fn in_degrees(Degrees { name, found, radians }: &Degrees) -> Sentence {
     Sentence {
-        what: format!("{name} = {found} is more than a turn: angles are in radians, this looks like degrees."),
+        what: format!(
+            "{name} = {found} is more than a turn: angles are in radians, this looks like degrees, \
+             and is taken for degrees in what follows."
+        ),
         change: format!("{} = {radians:.4}, if {found} degrees are meant.", quoted(name)),
     }
 }

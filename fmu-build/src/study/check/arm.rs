@@ -1,6 +1,6 @@
 //! How far the arm is from configurations in which it cannot move its end in every direction, and from its stops.
 
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::FRAC_PI_2;
 
 use nalgebra::{Matrix3, Vector3};
 use uam::mechanics::planar::{Vec2, cross};
@@ -98,9 +98,8 @@ fn beyond_stops(structure: Structure, parameters: &Parameters) -> Vec<Finding> {
     let mut findings = Vec::new();
     if parameters.ik.resolution == Resolution::LeastSquares {
         for (i, joint) in parameters.joints[..structure.links].iter().enumerate() {
-            // What is in degrees is told apart, and has no place between stops.
             let nearest = joint.start.max(joint.lower).min(joint.upper);
-            if nearest != joint.start && joint.start.abs() <= TAU {
+            if nearest != joint.start {
                 let name = format!("joint[{}].start", i + 1);
                 findings.push(Finding::BeyondStop { name, found: joint.start, nearest });
             }

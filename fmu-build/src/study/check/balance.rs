@@ -213,6 +213,20 @@ mod tests {
     }
 
     #[test]
+    fn each_start_that_is_proposed_balances() {
+        let structure = Structure::DEFAULT;
+        let mut parameters = default_parameters(structure);
+        parameters.joints[1].start += 0.3;
+        let joints = imbalance(&(structure, parameters.clone())).joints;
+        assert!(joints.len() > 1);
+        for (n, angle) in joints {
+            let mut balanced = parameters.clone();
+            balanced.joints[n - 1].start = angle;
+            assert!(imbalance(&(structure, balanced)).moment.abs() < 1e-12, "{n}: {angle}");
+        }
+    }
+
+    #[test]
     fn drift_follows_from_the_gains() {
         let gains = Gains { kp: 40.0, ki: 20.0, kd: 3.0 };
         assert_eq!(drift(&gains, 2.0, 10.0), Drift::Speed(-1.0));

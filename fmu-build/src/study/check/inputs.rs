@@ -73,6 +73,17 @@ fn degrees(structure: Structure, parameters: &Parameters) -> Vec<Degrees> {
     large.map(|(name, found)| Degrees { name, found, radians: found.to_radians() }).collect()
 }
 
+/// The same parameters with starts of joints and of a balance element in radians where they look like degrees.
+#[must_use]
+pub fn in_radians(structure: Structure, parameters: &Parameters) -> Parameters {
+    let mut meant = parameters.clone();
+    let joints = meant.joints[..structure.links].iter_mut().map(|joint| &mut joint.start);
+    for angle in joints.chain([&mut meant.balance_element.start]).filter(|angle| angle.abs() > TAU) {
+        *angle = angle.to_radians();
+    }
+    meant
+}
+
 fn ignored_stops(structure: Structure, parameters: &Parameters) -> Vec<usize> {
     if parameters.ik.resolution == Resolution::LeastSquares {
         return Vec::new();
@@ -128,6 +139,9 @@ mod tests {
         let [Finding::Degrees(degrees)] = &found(|p| p.joints[1].start = 120.0)[..] else { panic!("no degrees") };
         assert_eq!(degrees.name, "joint[2].start");
         assert!((degrees.radians - TAU / 3.0).abs() < 1e-15);
+        let mut parameters = default_parameters(Structure::DEFAULT);
+        parameters.joints[1].start = degrees.found;
+        assert_eq!(in_radians(Structure::DEFAULT, &parameters).joints[1].start, degrees.radians);
     }
 
     #[test]

@@ -69,12 +69,19 @@ pub fn traps(structure: Structure, parameters: &Parameters, start: &Statics, dur
     if parameters.reference.kind == ReferenceKind::External {
         return traps;
     }
-    if payload.mass > 0.0 {
-        traps.extend(in_motion(parameters, duration));
+    let mut time = payload.grasp_time.max(0.0);
+    if payload.mass > 0.0
+        && let Some(motion) = in_motion(parameters, duration)
+    {
+        traps.push(motion);
+        // The support is judged where the hand rests.
+        if let Trap::GraspedInMotion { rest: Some(rest), .. } = motion {
+            time = rest;
+        }
     }
     if parameters.support.stiffness > 0.0 {
         // What is held elsewhere has its own finding: the support is judged by the hand.
-        let height = start.end_effector.y + parameters.reference.at(payload.grasp_time.max(0.0)).displacement.y;
+        let height = start.end_effector.y + parameters.reference.at(time).displacement.y;
         traps.extend(support(parameters, height, start.mass));
     }
     traps
@@ -148,7 +155,7 @@ mod tests {
     #[test]
     fn what_is_held_beside_the_hand_or_grasped_in_motion_is_found() {
         assert!(matches!(found(|p| p.payload.com = 0.3)[..], [Trap::AwayFromHand { com: 0.3, length: 0.13, link: 3 }]));
-        let early = found(|p| (p.payload.grasp_time, p.support.stiffness) = (0.75, 0.0));
+        let early = found(|p| p.payload.grasp_time = 0.75);
         let [Trap::GraspedInMotion { rest: Some(rest), .. }] = early[..] else { panic!("{early:?}") };
         // The first leg ends at 1.5 s.
         assert!((1.4..1.51).contains(&rest), "{rest}");
