@@ -142,6 +142,29 @@ fn a_vehicle_of_ones_own_is_level_and_follows_its_path() {
     }
 }
 
+/// What is said of an imbalance bounds what comes of it, for the resolution that does nothing against it closely.
+#[test]
+fn an_unbalanced_start_rolls_the_uav_as_far_as_check_says() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("mine.toml");
+    let name = file.to_str().unwrap();
+    assert_eq!(answer(&["init", name]).0, Some(0));
+    let text = std::fs::read_to_string(&file).unwrap();
+    let (before, after) = text.split_once("\"joint[1].start\" = ").unwrap();
+    let (_, after) = after.split_once(' ').unwrap();
+    let unbalanced = format!("{before}\"joint[1].start\" = -0.15 {after}");
+    for (method, share) in [("minimum_norm", 0.8), ("extended_jacobian", 0.0), ("least_squares", 0.0)] {
+        std::fs::write(&file, unbalanced.replace("\"extended_jacobian\"", &format!("\"{method}\""))).unwrap();
+        let (code, said, _) = answer(&["check", name]);
+        assert_eq!(code, Some(1), "{method}: {said}");
+        let (_, number) =
+            said.split_once("which rolls the UAV by ").unwrap().1.split_once("which rolls the UAV by ").unwrap();
+        let foretold: f64 = number.split(' ').next().unwrap().parse().unwrap();
+        let [roll, _] = simulated(&file);
+        assert!(roll > share * foretold && roll < 1.05 * foretold, "{method}: {roll} degrees, foretold {foretold}");
+    }
+}
+
 #[test]
 fn a_file_that_is_there_stays_unless_forced() {
     let folder = tempfile::tempdir().unwrap();

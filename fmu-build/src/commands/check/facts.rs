@@ -4,7 +4,9 @@ use fmu_build::study::check::hover::Mode;
 use fmu_build::study::check::{Demand, Drift, Imbalance, Report};
 use fmu_build::study::own_vehicle::three_digits;
 use uam::autopilot::AutopilotMode;
+use uam::parameters::Resolution;
 use uam::scenarios::Scenario;
+use uam::variables::options::Choice;
 
 /// Drifts \[m/s, m/s2\] and moments \[N m\] below this are rounding.
 const NOTHING: f64 = 1e-6;
@@ -13,36 +15,49 @@ const FAR: f64 = std::f64::consts::TAU;
 
 /// One paragraph a subject.
 pub fn sentences(scenario: &Scenario, report: &Report) -> Vec<String> {
-    vec![balance(report), arm(report), hover(scenario, report), path(scenario, report)]
+    vec![balance(scenario, report), arm(report), hover(scenario, report), path(scenario, report)]
 }
 
 /// Where an imbalance leads in the end.
-pub fn drift(imbalance: &Imbalance) -> String {
+pub fn drift(imbalance: &Imbalance, resolution: Resolution) -> String {
     let side = |value: f64| if value < 0.0 { "to the left" } else { "to the right" };
-    match imbalance.drift {
-        Drift::Held => "The ideal autopilot holds the roll against it.".to_owned(),
-        Drift::Unknown => "What follows is up to the external autopilot.".to_owned(),
-        Drift::Tumbles => "Nothing brings the roll back: the UAV tumbles.".to_owned(),
+    let how = match imbalance.drift {
+        Drift::Held => return "The ideal autopilot holds the roll against it.".to_owned(),
+        Drift::Unknown => return "What follows is up to the external autopilot.".to_owned(),
+        Drift::Tumbles if imbalance.moment.abs() < NOTHING => return "Nothing brings a roll back.".to_owned(),
+        Drift::Tumbles => return "Nothing brings the roll back: the UAV tumbles.".to_owned(),
         Drift::Speed(rate) | Drift::Acceleration(rate) if rate.abs() < NOTHING => {
-            "Nobody holds the horizontal position, but nothing drives the UAV away from the start either.".to_owned()
+            return "Nobody holds the horizontal position, but nothing drives the UAV away from the start either."
+                .to_owned();
         }
         Drift::Speed(v) => format!(
-            "Nobody holds the horizontal position: the UAV goes on drifting {} at {:?} m/s, {:.3} m in ten seconds.",
+            "would go on drifting {} at {:?} m/s, {:.3} m in ten seconds",
             side(v),
             three_digits(v.abs()),
             10.0 * v.abs()
         ),
         Drift::Acceleration(a) => format!(
-            "Nobody holds the horizontal position, and without autopilot.roll.ki the roll stays: the UAV goes {} with \
-             {:?} m/s2, {:.3} m in ten seconds.",
+            "would go {} with {:?} m/s2, {:.3} m in ten seconds, for without autopilot.roll.ki the roll stays",
             side(a),
             three_digits(a.abs()),
             50.0 * a.abs()
         ),
-    }
+    };
+    // What simulations show; see the tests of the command line.
+    let instead = match resolution {
+        Resolution::MinimumNorm | Resolution::Gradient => {
+            "keeps the hand in place and so leans the arm while the UAV drifts"
+        }
+        _ => "swings what it can into balance",
+    };
+    format!(
+        "Nobody holds the horizontal position: with resting joints the UAV {how}; the resolution {} {instead}, which usually \
+         brings it to rest somewhere else.",
+        resolution.name()
+    )
 }
 
-fn balance(report: &Report) -> String {
+fn balance(scenario: &Scenario, report: &Report) -> String {
     let imbalance = &report.imbalance;
     let moment = if imbalance.moment.abs() < NOTHING { 0.0 } else { three_digits(imbalance.moment) };
     let roll = imbalance
@@ -50,7 +65,7 @@ fn balance(report: &Report) -> String {
         .map_or_else(String::new, |roll| format!(", which rolls the UAV by {:.3} degrees at most", roll.to_degrees()));
     let mut text = format!(
         "Balance: what the UAV carries gives a moment of {moment:?} N m about the UAV's centre of mass{roll}. {}",
-        drift(imbalance)
+        drift(imbalance, scenario.parameters.ik.resolution)
     );
     if moment == 0.0 {
         return text;

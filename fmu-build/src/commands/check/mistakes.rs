@@ -20,7 +20,7 @@ pub struct Sentence {
 /// A finding in words; `report` has the numbers that belong to it.
 pub fn sentence(finding: &Finding, scenario: &Scenario, report: &Report) -> Sentence {
     match finding {
-        Finding::Unbalanced => unbalanced(report),
+        Finding::Unbalanced => unbalanced(scenario, report),
         Finding::Singular(bend) => singular(bend),
         Finding::Degrees(degrees) => in_degrees(degrees),
         Finding::StopsIgnored(joints) => stops(joints, scenario),
@@ -43,7 +43,7 @@ fn quoted(name: &str) -> String {
     if name.contains('[') { format!("\"{name}\"") } else { name.to_owned() }
 }
 
-fn unbalanced(report: &Report) -> Sentence {
+fn unbalanced(scenario: &Scenario, report: &Report) -> Sentence {
     let imbalance = &report.imbalance;
     let what = format!(
         "The start is not balanced: what the UAV carries gives a moment of {:?} N m about the UAV's centre of mass{}. {}",
@@ -52,7 +52,7 @@ fn unbalanced(report: &Report) -> Sentence {
             ", which rolls the UAV by up to {:.1} degrees",
             roll.to_degrees()
         )),
-        facts::drift(imbalance),
+        facts::drift(imbalance, scenario.parameters.ik.resolution),
     );
     let mut changes: Vec<String> = Vec::new();
     if let Some((place, true)) = imbalance.counterweight {

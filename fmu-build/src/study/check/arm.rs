@@ -54,7 +54,9 @@ pub fn smallest_singular_value_with_moment(start: &Statics) -> Option<f64> {
         let column = Vector3::new(tip.x, tip.y, -outboard.y / start.carried_mass);
         gram + column * column.transpose()
     });
-    Some(gram.symmetric_eigenvalues().min().max(0.0).sqrt())
+    // Without mass there is no moment, and eigenvalues are sought in finite numbers only.
+    let is_finite = gram.iter().all(|number| number.is_finite());
+    is_finite.then(|| gram.symmetric_eigenvalues().min().max(0.0).sqrt())
 }
 
 /// Distance of each joint's start from the nearer of its stops \[rad\], negative beyond; none where they are not known.
@@ -149,6 +151,18 @@ mod tests {
         let expected = 0.13 * 0.5 * (5.0_f64.sqrt() - 1.0);
         assert!((smallest_singular_value(&bent.jacobian) - expected).abs() < 1e-12);
         assert_eq!(findings(structure, &parameters, &bent), []);
+    }
+
+    #[test]
+    fn nothing_weightless_has_a_moment() {
+        let structure = Structure::DEFAULT;
+        let mut parameters = default_parameters(structure);
+        let of = |parameters: &Parameters| {
+            smallest_singular_value_with_moment(&Statics::at_start(structure, parameters, false).unwrap())
+        };
+        assert!(of(&parameters).is_some_and(|value| value > 0.01));
+        parameters.links.iter_mut().for_each(|link| link.mass = 0.0);
+        assert_eq!(of(&parameters), None);
     }
 
     #[test]

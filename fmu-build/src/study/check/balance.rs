@@ -4,6 +4,10 @@
 //! mass as to a torque: I roll'' = m - kd roll' - kp roll - ki int(roll). The tilted thrust accelerates the
 //! vehicle by -g roll, and nobody holds its horizontal position. With an integral gain the roll comes back to 0 and has
 //! then had the integral m / ki: what is left is the speed -g m / ki. Without, the roll stays at m / kp.
+//!
+//! That is so while the joints rest. A controller that keeps the hand in place leans the arm below a UAV that drifts, and
+//! one that keeps moments away swings the arm into balance: both usually bring the UAV to rest, away from where it was.
+//! Roll and speed are how it begins, and bounds.
 
 use std::f64::consts::PI;
 
@@ -21,7 +25,7 @@ const FAST_DRIFT: f64 = 0.02;
 /// The same, where the roll stays \[m/s2\].
 const STEEP_DRIFT: f64 = 0.002;
 
-/// What the UAV does in the end if nobody interferes, linearized about hover.
+/// What the UAV does in the end if its joints rest, linearized about hover.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Drift {
     /// An autopilot that holds the roll whatever comes.
