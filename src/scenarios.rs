@@ -1,11 +1,13 @@
 //! Named runs: vehicle, gains, method, path, payload and schedule as data.
 //!
 //! A scenario is a small TOML file that says in what it differs from the start values of the units. Its
-//! parameters have the names that they have in the units, and are checked against the same table.
+//! parameters have the names that they have in the units, and are checked against the same table. `[*]` in a name stands for
+//! every link, joint or leg, except for those that have a line of their own; a number may stand with its unit, in quotes: `"30 deg"`.
 //! The runs of the thesis are the files in the folder `scenarios`.
 
 mod catalogue;
 mod error;
+mod quantity;
 mod reader;
 mod syntax;
 mod unknown;

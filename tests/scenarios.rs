@@ -70,9 +70,48 @@ fn tables_dots_and_quotes_mean_the_same() {
     }
 }
 
+/// 60 degrees are pi / 3, 5 cm are 0.05 m; numbers alone are in SI units.
+#[test]
+fn a_number_may_stand_with_its_unit() {
+    let text = "id = 'a'\nbased_on = '4.3b'\nduration = '0.5 min'\nstep = '2 ms'
+        [parameters]\n'joint[2].start' = '60 deg'\nmount.x = '5 cm'\nsupport.stiffness = '0.4 kN/m'";
+    let scenario = Scenario::read(text).unwrap();
+    assert_eq!((scenario.duration, scenario.step), (30.0, 2e-3));
+    let parameters = scenario.parameters;
+    assert!((parameters.joints[1].start - std::f64::consts::FRAC_PI_3).abs() < 1e-15);
+    assert_eq!((parameters.mount.x, parameters.support.stiffness), (0.05, 400.0));
+}
+
+/// A line of its own counts more, wherever it stands.
+#[test]
+fn a_star_stands_for_every_member_of_a_family() {
+    for lines in ["'joint[2].weight' = 3\n'joint[*].weight' = 2", "'joint[*].weight' = 2\n'joint[2].weight' = 3"] {
+        let text = format!("id = 'a'\nbased_on = '4.3b'\n[parameters]\n{lines}\n'reference.leg[*].ramp' = '50 ms'");
+        let parameters = Scenario::read(&text).unwrap().parameters;
+        assert_eq!(parameters.joints[..3].iter().map(|joint| joint.weight).collect::<Vec<_>>(), [2.0, 3.0, 2.0]);
+        assert!(parameters.reference.legs.iter().all(|leg| leg.ramp == 0.05));
+    }
+}
+
 #[test]
 fn what_is_not_understood_is_refused_with_its_line() {
     let cases = [
+        (
+            7,
+            "\"joint[1].lower\" = '30 degrees'",
+            "line 7: `joint[1].lower` must be a finite number [rad], or with its unit as in \"2.5 deg\", but is \"30 degrees\"",
+        ),
+        (
+            7,
+            "gravity = '9.8 N'",
+            "line 7: `gravity` must be a finite number, at least 0 [m/s2], or with its unit as in",
+        ),
+        (
+            7,
+            "\"link[*].mas\" = 1",
+            "line 7: a vehicle with 2 links has no parameter `link[*].mas`; did you mean `link[1].mass`",
+        ),
+        (7, "\"joint[*].weight\" = 0", "line 7: `joint[*].weight` must be a finite number, above 0"),
         (1, "id = 3", "line 1: `id` must be a short name of letters, digits, `.`, `-` and `_`, in quotes, but is 3"),
         (1, "id = '../mine'", "line 1: `id` must be a short name"),
         (2, "titel = 'A'", "line 2: unknown key `titel`; did you mean `title`?"),
@@ -104,8 +143,8 @@ fn what_is_not_understood_is_refused_with_its_line() {
         (7, "payload.mass = nan", "line 7: `payload.mass` must be a finite number"),
         (
             7,
-            "payload.mass = '1 kg'",
-            "line 7: `payload.mass` must be a finite number, at least 0 [kg], but is \"1 kg\"",
+            "payload.mass = '1 lb'",
+            "line 7: `payload.mass` must be a finite number, at least 0 [kg], or with its unit as in \"2.5 kg\", but is \"1 lb\"",
         ),
         (7, "payload = 1.0", "line 7: a vehicle with 2 links has no parameter `payload`"),
         (7, "payload.mass = 0.1\n\"payload.mass\" = 0.2", "line 8: `parameters.payload.mass` stands in line 7 already"),

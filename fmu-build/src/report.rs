@@ -24,6 +24,7 @@ use crate::formats::html::document;
 use crate::host::record::NotRecorded;
 use crate::host::run::Run;
 use crate::study::claims::Table;
+use crate::study::particulars;
 
 /// A report that cannot be made.
 #[derive(Debug, thiserror::Error)]
@@ -67,6 +68,8 @@ pub struct Report {
     pub table: Table,
     /// Figures in their order.
     pub figures: Vec<Figure>,
+    /// What stands at the end.
+    pub appendix: Markup,
 }
 
 impl Report {
@@ -82,6 +85,7 @@ impl Report {
                     // The picture of what happens comes first.
                     @if i == 0 { section { h2 { "What came out" } (table(&self.table)) } }
                 }
+                (self.appendix)
             },
         )
     }
@@ -98,6 +102,20 @@ impl Report {
 /// A page with a heading.
 fn page(title: &str, content: &Markup) -> String {
     document(title, style::SHEET, &html! { main { h1 { (title) } (content) } })
+}
+
+/// What became of a run: it stands first.
+fn verdict(sentences: &[String]) -> Markup {
+    let (sentence, doubts) = sentences.split_first().map_or((None, sentences), |(first, rest)| (Some(first), rest));
+    html! {
+        @if let Some(sentence) = sentence { p { strong { (sentence) } } }
+        @if !doubts.is_empty() { ul { @for doubt in doubts { li { (doubt) } } } }
+    }
+}
+
+/// Which program made a page, and when.
+fn made_by() -> Markup {
+    html! { p { "Made by " (particulars::program()) " on " (particulars::today()) "." } }
 }
 
 fn table(table: &Table) -> Markup {

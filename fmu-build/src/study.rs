@@ -5,8 +5,10 @@ pub mod check;
 pub mod claims;
 pub mod own_file;
 pub mod own_vehicle;
+pub mod particulars;
 pub mod reach;
 pub mod variation;
+pub mod verdict;
 
 use std::time::Duration;
 

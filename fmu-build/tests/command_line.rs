@@ -8,31 +8,36 @@ use std::process::Command;
 use uam::coupling::{Schedule, Unit, in_process};
 use uam::scenarios::Scenario;
 
+/// Exit code for a command line that cannot be understood.
+const USAGE: i32 = 2;
+
 /// Exit code, standard output and error output.
 fn answer(arguments: &[&str]) -> (Option<i32>, String, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_fmu-build")).args(arguments).output().unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_uam")).args(arguments).output().unwrap();
     let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
     (output.status.code(), text(output.stdout), text(output.stderr))
 }
 
 #[test]
 fn mistakes_are_named_with_what_is_allowed() {
-    let cases: [(&[&str], &str); 11] = [
-        (&["simulate", "4.3x"], "did you mean `4.3"),
-        (&["simulate", "hover"], "there is no scenario `hover`"),
-        (&["simulate", "4.3a", "--step", "-0.001"], "the communication step must be a number of seconds from"),
-        (&["simulate", "4.3a", "--step", "nan"], "but is NaN"),
-        (&["simulate", "4.3a", "--stop", "0"], "the stop time must be"),
-        (&["build", "--links", "7"], "1 to 6 links, not 7"),
-        (&["build", "--links", "x"], "1 to 6 links"),
-        (&["build", "--scenario", "4.3x"], "did you mean `4.3"),
-        (&["build", "--scenario", "none.toml"], "cannot read none.toml"),
-        (&["build", "--scenario", "4.3a", "--links", "2"], "cannot be used with"),
-        (&["fly"], "unrecognized subcommand"),
+    let cases: [(&[&str], i32, &str); 13] = [
+        (&["simulate", "4.3x"], 1, "did you mean `4.3"),
+        (&["simulate", "hover"], 1, "there is no scenario `hover`"),
+        (&["simulate", "4.3a", "--step", "-0.001"], 1, "the communication step must be a number of seconds from"),
+        (&["simulate", "4.3a", "--step", "nan"], 1, "but is NaN"),
+        (&["simulate", "4.3a", "--stop", "0"], 1, "the stop time must be"),
+        (&["build", "--links", "7"], USAGE, "1 to 6 links, not 7"),
+        (&["build", "--links", "x"], USAGE, "1 to 6 links"),
+        (&["build", "--scenario", "4.3x"], 1, "did you mean `4.3"),
+        (&["build", "--scenario", "none.toml"], 1, "cannot read none.toml"),
+        (&["build", "--scenario", "4.3a", "--links", "2"], USAGE, "cannot be used with"),
+        (&["fly"], USAGE, "unrecognized subcommand"),
+        (&["simulate"], USAGE, "<SCENARIO>"),
+        (&["completions", "abacus"], USAGE, "zsh"),
     ];
-    for (arguments, expected) in cases {
+    for (arguments, expected_code, expected) in cases {
         let (code, _, error) = answer(arguments);
-        assert_eq!(code, Some(1), "{arguments:?}");
+        assert_eq!(code, Some(expected_code), "{arguments:?}");
         assert!(error.contains(expected), "{arguments:?}: {error}");
     }
 }
@@ -182,15 +187,16 @@ fn vehicles_that_cannot_be_are_refused_by_name() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("mine.toml");
     let name = file.to_str().unwrap();
-    for (arguments, expected) in [
-        (&["--links", "7"], "1 to 6 links"),
-        (&["--mass", "-1"], "uav.mass must be a finite number, above 0, but is -1"),
-        (&["--link-length", "0"], "link[1].length must be"),
-        (&["--name", "my drone"], "`id` must be"),
-        (&["--counterweight-mass", "1"], "--counterweight"),
+    for (arguments, expected_code, expected) in [
+        (&["--links", "7"], USAGE, "1 to 6 links"),
+        (&["--mass", "-1"], 1, "uav.mass must be a finite number, above 0, but is -1"),
+        (&["--link-length", "0"], 1, "link[1].length must be"),
+        (&["--name", "my drone"], 1, "`id` must be"),
+        (&["--counterweight-mass", "1"], USAGE, "--counterweight"),
     ] {
         let arguments: Vec<&str> = ["init", name].into_iter().chain(*arguments).collect();
-        let error = refusal(&arguments);
+        let (code, _, error) = answer(&arguments);
+        assert_eq!(code, Some(expected_code), "{arguments:?}: {error}");
         assert!(error.contains(expected), "{arguments:?}: {error}");
         assert!(!file.exists());
     }
@@ -254,7 +260,54 @@ fn check_finds_nothing_in_the_pick_up() {
 fn help_teaches_with_examples() {
     let (code, help, _) = answer(&["--help"]);
     assert_eq!(code, Some(0));
-    assert!(help.contains("Examples:") && help.contains("simulate 4.3a"), "{help}");
+    assert!(help.contains("Examples:") && help.contains("uam simulate 4.3a"), "{help}");
+    assert!(!help.contains('\u{1b}'), "no control characters where there is no terminal: {help}");
+    assert!(!help.contains("describe"), "what only developers need is not shown: {help}");
+}
+
+#[test]
+fn shells_learn_the_commands() {
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        let (code, script, _) = answer(&["completions", shell]);
+        assert_eq!(code, Some(0));
+        assert!(script.contains("simulate") && script.contains("discretization"), "{shell}: {script}");
+    }
+}
+
+/// Outside of the sources, which the test says by the folder and without what cargo says of itself.
+fn elsewhere(arguments: &[&str]) -> (Option<i32>, String) {
+    let folder = tempfile::tempdir().unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_uam"));
+    command.args(arguments).current_dir(folder.path()).env_remove("CARGO_MANIFEST_DIR");
+    let output = command.output().unwrap();
+    (output.status.code(), String::from_utf8(output.stderr).unwrap())
+}
+
+#[test]
+fn other_platforms_ask_for_the_sources() {
+    for arguments in [&["build", "--platforms", "win64"][..], &["build", "--platforms", "win64", "--sources", "."]] {
+        let (code, error) = elsewhere(arguments);
+        assert_eq!(code, Some(1), "{arguments:?}");
+        assert!(error.contains("--sources") && error.contains("were not found"), "{arguments:?}: {error}");
+    }
+    let (code, error) = elsewhere(&["build", "--platforms", "win64", "--sources", "no/such/folder"]);
+    assert_eq!(code, Some(1));
+    assert!(error.contains("no/such/folder"), "{error}");
+}
+
+#[test]
+fn the_quiet_say_nothing_but_results() {
+    let folder = tempfile::tempdir().unwrap();
+    let export = |quiet: &[&str]| {
+        let arguments = [&["export", "4.3a", "--out", folder.path().to_str().unwrap()], quiet].concat();
+        let (code, out, error) = answer(&arguments);
+        assert_eq!((code, error.as_str()), (Some(0), ""));
+        out
+    };
+    assert!(export(&[]).contains("Written:"));
+    assert_eq!(export(&["--quiet"]), "");
+    let (_, list, _) = answer(&["list", "-q"]);
+    assert!(list.contains("4.3a"), "a list is a result");
 }
 
 #[test]
@@ -269,6 +322,6 @@ fn every_scenario_has_a_line() {
 fn who_reads_no_further_gets_no_error() {
     let (reader, writer) = std::io::pipe().unwrap();
     drop(reader);
-    let output = Command::new(env!("CARGO_BIN_EXE_fmu-build")).arg("list").stdout(writer).output().unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_uam")).arg("list").stdout(writer).output().unwrap();
     assert_eq!(String::from_utf8(output.stderr).unwrap(), "");
 }

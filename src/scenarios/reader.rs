@@ -3,12 +3,14 @@
 use toml::de::{DeTable, DeValue};
 
 use super::error::near;
+use super::quantity;
 use super::syntax::{self, printable};
 use super::unknown::{near_keys, no_parameter};
 use super::{Error, Problem, Scenario, THESIS_STEP, default_parameters};
 use crate::control;
 use crate::parameters::{Balance, Parameters, Structure};
-use crate::variables::{Kind, Variable};
+use crate::variables::unit::{self, PhysicalUnit};
+use crate::variables::{Kind, Table, Variable};
 
 /// Keys beside the parameters, with what each must be.
 const ID: (&str, &str) = ("id", "a short name of letters, digits, `.`, `-` and `_`, in quotes");
@@ -107,7 +109,7 @@ impl Document<'_> {
         let title = self.field(TITLE).map(|field| field.if_ok(field.text()?, |text| is_line(text))).transpose()?;
         let title = title.or(base.map(|base| base.title.as_str())).ok_or_else(|| missing(TITLE))?.to_owned();
         let seconds = |key, inherited: Option<f64>| match self.field(key) {
-            Some(field) => field.if_ok(field.number()?, |&value| value.is_finite() && value > 0.0),
+            Some(field) => field.if_ok(field.quantity(&unit::SECOND)?, |&value| value.is_finite() && value > 0.0),
             None => inherited.ok_or_else(|| missing(key)),
         };
         let duration = seconds(DURATION, base.map(|base| base.duration))?;
@@ -153,15 +155,15 @@ impl Document<'_> {
 
     fn set_parameters(&self, structure: Structure, parameters: &mut Parameters) -> Result<(), Error> {
         let table = Parameters::table(structure);
-        for entry in &self.entries {
+        // Those that stand for every member of a family first: a line of its own counts more.
+        let (every, single): (Vec<_>, Vec<_>) = self.entries.iter().partition(|entry| entry.key.contains(EVERY));
+        for entry in every.into_iter().chain(single) {
             let Some(name) = entry.parameter() else { continue };
-            let Some(variable) = table.find(name) else {
-                let near = near(name, table.variables().iter().map(|variable| variable.name.as_str()));
-                let unknown =
-                    || Problem::UnknownParameter { name: printable(name), structure: structure.to_string(), near };
-                return Err(entry.refused(no_parameter(structure, name).unwrap_or_else(unknown)));
-            };
-            entry.put(variable, parameters)?;
+            let mut variables = members(&table, name).peekable();
+            if variables.peek().is_none() {
+                return Err(entry.refused(unknown_parameter(structure, &table, name)));
+            }
+            variables.try_for_each(|variable| entry.put(variable, parameters))?;
         }
         control::check(structure, parameters).map_err(|error| {
             let name = error.parameter().unwrap_or_default();
@@ -171,6 +173,30 @@ impl Document<'_> {
             }
         })
     }
+}
+
+/// In the name of a parameter: that of every link, joint or leg.
+const EVERY: &str = "[*]";
+
+/// The variables that a name stands for.
+fn members<'a>(table: &'a Table<Parameters>, name: &'a str) -> impl Iterator<Item = &'a Variable<Parameters>> {
+    let is_meant = move |variable: &&Variable<Parameters>| match name.split_once(EVERY) {
+        None => variable.name == name,
+        Some((family, rest)) => {
+            let member = variable.name.strip_prefix(family).and_then(|member| member.strip_suffix(rest));
+            let number = member.and_then(|member| member.strip_prefix('[')).and_then(|member| member.strip_suffix(']'));
+            number.is_some_and(|number| number.bytes().all(|digit| digit.is_ascii_digit()))
+        }
+    };
+    table.variables().iter().filter(is_meant)
+}
+
+fn unknown_parameter(structure: Structure, table: &Table<Parameters>, name: &str) -> Problem {
+    let first = name.replace(EVERY, "[1]");
+    no_parameter(structure, &first).unwrap_or_else(|| {
+        let near = near(&first, table.variables().iter().map(|variable| variable.name.as_str()));
+        Problem::UnknownParameter { name: printable(name), structure: structure.to_string(), near }
+    })
 }
 
 /// Whether this is one line, which every document can hold.
@@ -195,8 +221,8 @@ impl<'a> Field<'a> {
         self.entry.text().ok_or_else(|| self.wrong())
     }
 
-    fn number(&self) -> Result<f64, Error> {
-        self.entry.number().ok_or_else(|| self.wrong())
+    fn quantity(&self, unit: &PhysicalUnit) -> Result<f64, Error> {
+        self.entry.quantity(unit).ok_or_else(|| self.wrong())
     }
 
     fn count(&self) -> Result<usize, Error> {
@@ -225,8 +251,10 @@ impl Entry<'_> {
         if let DeValue::String(text) = self.value { Some(text) } else { None }
     }
 
-    fn number(&self) -> Option<f64> {
+    /// The number in SI units: alone, or with a unit as a text.
+    fn quantity(&self, unit: &PhysicalUnit) -> Option<f64> {
         match self.value {
+            DeValue::String(text) => quantity::read(text, unit),
             DeValue::Float(value) => value.as_str().parse().ok(),
             DeValue::Integer(value) if value.radix() == 10 => value.as_str().parse().ok(),
             _ => None,
@@ -237,8 +265,13 @@ impl Entry<'_> {
     fn put(&self, variable: &Variable<Parameters>, parameters: &mut Parameters) -> Result<(), Error> {
         match variable.kind {
             Kind::Real { bounds, at, unit } => {
-                let number = self.number().filter(|&number| bounds.admit(number));
-                let expected = || format!("{bounds} [{}]", unit.name);
+                let number = self.quantity(unit).filter(|&number| bounds.admit(number));
+                let with_unit = || match (self.value, &unit.display) {
+                    (DeValue::String(_), Some(display)) => format!(", or with its unit as in \"2.5 {}\"", display.name),
+                    (DeValue::String(_), None) => format!(", or with its unit as in \"2.5 {}\"", unit.name),
+                    _ => String::new(),
+                };
+                let expected = || format!("{bounds} [{}]{}", unit.name, with_unit());
                 *at.get_mut(parameters) = number.ok_or_else(|| self.wrong(&expected()))?;
             }
             Kind::Boolean { at } => match self.value {

@@ -24,7 +24,8 @@ pub(super) fn write(scenario: &Scenario, extent: Extent) -> String {
     let mut text = format!(
         "\
 # Names, units and bounds of the parameters are those of the FMUs. What is not here has the start value that it
-# has in the FMUs of this structure.
+# has in the FMUs of this structure. A number may stand with its unit, in quotes: \"30 deg\", \"5 cm\"; \"joint[*].weight\" is
+# the weight of every joint.
 id = {id}
 title = {title}
 duration = {duration:?} # [s]

@@ -11,7 +11,7 @@ use uam::Structure;
 use uam::parameters::Balance;
 use uam::scenarios::Scenario;
 
-use crate::terminal::{say, wrote};
+use crate::terminal::{remark, wrote};
 
 /// Which vehicle, and where to write it.
 #[derive(Debug, Args)]
@@ -64,7 +64,7 @@ pub fn execute(arguments: &InitArguments) -> Result<()> {
     }
     wrote(&[files::write(file, text.as_bytes())?])?;
     let file = file.display();
-    say(format_args!("\nNext: put your own numbers in, then `check {file}` and `simulate {file}`."))
+    remark(format_args!("\nNext: put your own numbers in, then `check {file}` and `simulate {file}`."))
 }
 
 /// The text of the file; it reads.

@@ -8,17 +8,19 @@ use fmu_build::host::coupling::Pair;
 use fmu_build::host::record::{Recording, write_csv};
 use fmu_build::host::run::Run;
 use fmu_build::report;
+use fmu_build::study::verdict::Verdict;
 use fmu_build::study::{self, Case, Summary};
 use uam::Structure;
+use uam::scenarios::PICK_UP;
 
 use super::{Progress, build_files, complain, speed};
-use crate::terminal::{say, wrote};
+use crate::terminal::{remark, say, wrote};
 
 /// The csv holds every so many communication points: fine enough to plot, small enough for spreadsheets.
 const CSV_STRIDE: usize = 10;
 
 pub fn execute(out: &Path) -> Result<()> {
-    say(format_args!("Building both FMUs for {} ...", Structure::DEFAULT))?;
+    remark(format_args!("Building both FMUs for {} ...", Structure::DEFAULT))?;
     let built = build_files(&BuildOptions::new(Structure::DEFAULT, out))?;
     let pair = Pair::open(&built.controller, &built.plant)?;
 
@@ -33,11 +35,14 @@ pub fn execute(out: &Path) -> Result<()> {
     files.push(write_csv(&csv, &columns, CSV_STRIDE)?);
     files.push(report::pick_up::report(&cases)?.write(&page)?);
 
+    if let Some(case) = cases.iter().find(|case| case.scenario.id == PICK_UP) {
+        say(format_args!("\n{}", Verdict::of(case.exact())?))?;
+    }
     say(format_args!("\nThe pick-up of thesis 4.3, {} coupled runs of both FMUs\n", runs().count()))?;
     let summaries = cases.iter().map(Case::summary).collect::<Result<Vec<Summary>, _>>()?;
     say(format_args!("{}\n", study::pick_up_table(&summaries)))?;
     complain(&summaries)?;
-    say(format_args!("{}\n", speed(&runs().collect::<Vec<_>>())))?;
+    remark(format_args!("{}\n", speed(&runs().collect::<Vec<_>>())))?;
     wrote(&files)
 }
 

@@ -8,6 +8,7 @@ use uam::scenarios::PICK_UP;
 use crate::host::record::NotRecorded;
 use crate::host::run::Run;
 use crate::study::claims::Quantity;
+use crate::study::verdict::Verdict;
 use crate::study::{self, Case};
 
 /// How long the figure of the growing swings goes on after the arm has left its workspace \[s\].
@@ -36,6 +37,7 @@ pub fn report(cases: &[Case]) -> Result<Report, Error> {
     Ok(Report {
         title: "Picking up a payload from an elastic support".to_owned(),
         introduction: html! {
+            (super::verdict(&Verdict::of(pick_up[0].run)?.sentences()))
             p {
                 "A hovering multicopter reaches down with an arm of three links, grasps "
                 (scenario.parameters.payload.mass) " kg that rest on a spring, and lifts them. The arm has one joint "
@@ -53,6 +55,10 @@ pub fn report(cases: &[Case]) -> Result<Report, Error> {
         },
         table: study::pick_up_table(&cases.iter().map(Case::summary).collect::<Result<Vec<_>, _>>()?),
         figures,
+        appendix: html! {
+            (super::made_by())
+            p { "The numbers of these curves are in " a href="pick-up.csv" { "pick-up.csv" } "." }
+        },
     })
 }
 

@@ -1,15 +1,11 @@
 //! A scenario with some of its numbers changed: what depends on a number that the thesis does not print?
 
 use uam::scenarios::{Error, Problem, Scenario};
-use uam::{Parameters, Structure};
 
 /// Beside the names of parameters, `duration` and `step`: all times of path and grasp are divided by it.
 pub const PACE: &str = "pace";
 /// Likewise: all ways of the path are multiplied by it.
 pub const SIZE: &str = "size";
-
-/// In the name of a parameter: that of every link, joint or leg.
-pub const EVERY: &str = "[*]";
 
 /// Names with new values, each as written in a scenario file.
 pub type Changes<'a> = &'a [(&'a str, &'a str)];
@@ -21,37 +17,20 @@ pub type Changes<'a> = &'a [(&'a str, &'a str)];
 /// Names the key or value that is not understood, with what is allowed.
 pub fn vary(scenario: &Scenario, changes: Changes<'_>) -> Result<Scenario, Error> {
     let mut varied = scenario.clone();
-    let mut values: Vec<(String, &str)> = Vec::new();
+    let mut values: Vec<(&str, &str)> = Vec::new();
     for &(name, value) in changes {
         let change = match name {
             PACE => at_pace,
             SIZE => of_size,
             _ => {
-                for name in every(varied.structure, name) {
-                    values.retain(|(other, _)| *other != name);
-                    values.push((name, value));
-                }
+                values.retain(|(other, _)| *other != name);
+                values.push((name, value));
                 continue;
             }
         };
-        varied = change(with(&varied, std::mem::take(&mut values))?, factor(name, value)?);
+        varied = change(varied.with(std::mem::take(&mut values))?, factor(name, value)?);
     }
-    with(&varied, values)
-}
-
-fn with(scenario: &Scenario, values: Vec<(String, &str)>) -> Result<Scenario, Error> {
-    scenario.with(values.iter().map(|(name, value)| (name.as_str(), *value)))
-}
-
-/// The names that a name with [`EVERY`] stands for: as many as the structure has; at least the first, which is to be
-/// refused if there is none.
-fn every(structure: Structure, name: &str) -> Vec<String> {
-    if !name.contains(EVERY) {
-        return vec![name.to_owned()];
-    }
-    let table = Parameters::table(structure);
-    let numbered = (1..).map(|n| (n, name.replace(EVERY, &format!("[{n}]"))));
-    numbered.take_while(|(n, name)| *n == 1 || table.find(name).is_some()).map(|(_, name)| name).collect()
+    varied.with(values)
 }
 
 fn factor(name: &str, value: &str) -> Result<f64, Error> {
@@ -80,6 +59,7 @@ fn of_size(mut scenario: Scenario, size: f64) -> Scenario {
 #[cfg(test)]
 mod tests {
     use uam::scenarios::{catalogue, find};
+    use uam::{Parameters, Structure};
 
     use super::*;
 
@@ -128,7 +108,7 @@ mod tests {
             }
         }
         let refused = vary(&find("4.3b").unwrap(), &[("link[*].mas", "1")]).unwrap_err().to_string();
-        assert!(refused.contains("no parameter `link[1].mas`; did you mean `link[1].mass`"), "{refused}");
+        assert!(refused.contains("no parameter `link[*].mas`; did you mean `link[1].mass`"), "{refused}");
     }
 
     /// The first of two changes alone would be refused; the last one of the same name counts.

@@ -88,7 +88,7 @@ fn in_degrees(Degrees { name, found, radians }: &Degrees) -> Sentence {
             "{name} = {found} is more than a turn: angles are in radians, this looks like degrees, \
              and is taken for degrees in what follows."
         ),
-        change: format!("{} = {radians:.4}, if {found} degrees are meant.", quoted(name)),
+        change: format!("{} = {radians:.4}, or \"{found} deg\", if degrees are meant.", quoted(name)),
     }
 }
 
