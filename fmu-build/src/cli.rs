@@ -11,6 +11,9 @@ use uam::Structure;
 use uam::parameters::{Balance, Discretization, MAX_LINKS};
 use uam::variables::options::Choice;
 
+use crate::commands::check::CheckArguments;
+use crate::commands::init::InitArguments;
+
 const EXAMPLES: &str = "\
 Examples:
   uam                                 build, run the pick-up of thesis 4.3, write out/report.html
@@ -23,6 +26,8 @@ Examples:
   uam list                            the simulations that `simulate` knows
   uam simulate 4.3a                   one simulation, with its own report
   uam simulate 4.3b --step 0.01 --stop 10 --discretization euler
+  uam init mine.toml --links 2        a vehicle of your own, level and without payload
+  uam check mine.toml                 what in it looks like a mistake
   uam show 4.3b > mine.toml           a file to start your own simulation from
   uam simulate mine.toml              your own simulation
   uam export 4.2a                     parameter sets for other hosts
@@ -83,6 +88,16 @@ pub enum Command {
     /// master may step the units, and autopilots that are continuous or sampled. Prints the largest errors of the end
     /// effector and of the predicted base with the observed orders, and writes budget.html with figures.
     Budget(PrintArguments),
+    /// Write a scenario file for a vehicle of your own
+    ///
+    /// Every value has its unit in a comment. The vehicle has no payload, starts level, and runs with `simulate` at once.
+    Init(InitArguments),
+    /// Say of a simulation, before it runs, what looks like a mistake
+    ///
+    /// A verdict, then each mistake with the parameter to change and its value, then the numbers behind it: balance at
+    /// the start, distance from singular, stability of the hover, what the path asks for. The exit code is 0 if
+    /// nothing looks wrong, else 1.
+    Check(CheckArguments),
     /// List the simulations that `simulate` knows, one per line
     List,
     /// Print a simulation as a TOML file, to be changed and given to `simulate`
@@ -304,7 +319,11 @@ fn change(text: &str) -> Result<Change, String> {
     })
 }
 
-fn links(text: &str) -> Result<usize, String> {
+/// The number of links that a text stands for.
+///
+/// # Errors
+/// If no arm has as many.
+pub fn links(text: &str) -> Result<usize, String> {
     let number: usize = text.parse().map_err(|_| format!("an arm has 1 to {MAX_LINKS} links"))?;
     Structure::new(number, Balance::None).map(|structure| structure.links).map_err(|error| error.to_string())
 }

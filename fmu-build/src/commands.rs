@@ -18,8 +18,10 @@ use crate::terminal::{is_quiet, say, wrote};
 
 mod budget;
 mod build;
+pub mod check;
 mod completions;
 mod export;
+pub mod init;
 mod pick_up;
 mod reach;
 mod simulate;
@@ -37,6 +39,8 @@ pub fn execute(arguments: &Arguments) -> Result<()> {
         Some(Command::Vary(arguments)) => vary::execute(arguments),
         Some(Command::Reach(arguments)) => reach::execute(arguments, out),
         Some(Command::Budget(arguments)) => budget::execute(arguments, out),
+        Some(Command::Init(arguments)) => init::execute(arguments),
+        Some(Command::Check(arguments)) => check::execute(&arguments.scenario),
         Some(Command::List) => scenarios::catalogue()?
             .iter()
             .try_for_each(|scenario| say(format_args!("{:<24} {}", scenario.id, scenario.title))),
