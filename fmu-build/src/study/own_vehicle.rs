@@ -98,7 +98,8 @@ pub fn own_vehicle(choices: &Choices) -> Result<Scenario, Error> {
     parameters.autopilot.roll = rounded(Control::Roll, start.inertia);
     set_path(choices, &mut parameters);
     parameters.check(structure)?;
-    let title = format!("Own vehicle: {structure}, no payload, a small motion there and back");
+    let motion = if structure.links == 1 { "at rest" } else { "a small motion there and back" };
+    let title = format!("Own vehicle: {structure}, no payload, {motion}");
     Ok(Scenario { id: choices.id.clone(), title, structure, parameters, duration: DURATION, step: 1e-3 })
 }
 
@@ -140,7 +141,7 @@ fn set_method(choices: &Choices, parameters: &mut Parameters) {
 fn set_path(choices: &Choices, parameters: &mut Parameters) {
     let way = if choices.structure.links == 1 { 0.0 } else { three_digits(0.1 * choices.link_length) };
     let leg = |start, dy| Leg { start, duration: LEG, ramp: 1.0, dx: 0.0, dy, profile: Profile::Smooth };
-    parameters.reference.legs = [leg(0.0, -way), leg(LEG, way), Leg::NONE, Leg::NONE];
+    parameters.reference.legs = [leg(0.0, 0.0 - way), leg(LEG, way), Leg::NONE, Leg::NONE];
 }
 
 /// A zigzag, of which the first link brings the balance: of all folds the one that is farthest from singular.
