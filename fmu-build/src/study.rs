@@ -9,7 +9,6 @@ pub mod verdict;
 use std::time::Duration;
 
 use rayon::prelude::*;
-use uam::Structure;
 use uam::parameters::Discretization;
 use uam::scenarios::{self, Scenario, catalogue};
 use uam::variables::options::Choice;
