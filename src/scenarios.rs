@@ -50,7 +50,8 @@ impl Scenario {
     /// Names the line, and the key or value in it, that is not understood, with what is allowed; a path in a file of its own
     /// is not: see [`Self::read_with`].
     pub fn read(text: &str) -> Result<Self, Error> {
-        let none = "only the text of the scenario is read here, no other file; its rows may stand in the scenario itself";
+        let none =
+            "only the text of the scenario is read here, no other file; its rows may stand in the scenario itself";
         Self::read_with(text, &|_| Err(none.to_owned()))
     }
 

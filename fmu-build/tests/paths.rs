@@ -107,8 +107,7 @@ fn a_state_saved_on_the_way_goes_on_with_the_same_numbers() {
 /// A state does not hold its table, so that it is one of units with this table alone.
 #[test]
 fn a_state_of_a_unit_with_another_path_is_refused() {
-    let [one, other] =
-        [0.06, 0.05].map(|width| pair(Design::from(scenario(&eight(width))), &format!("width {width}")));
+    let [one, other] = [0.06, 0.05].map(|width| pair(Design::from(scenario(&eight(width))), &format!("width {width}")));
     let none = pair(Design::from(Structure::DEFAULT), "no path");
     let mut unit = controller(&one);
     unit.initialize(0.0, 1.0).unwrap();

@@ -193,18 +193,16 @@ fn read<M: Model>(text: &str) -> Result<Identity<M>, StartFileError> {
             (name, Some(unit)) => {
                 let table = table.get_or_insert_with(|| unit.table());
                 let variable = table.find(name).filter(|variable| is_set_from_outside(variable));
-                let variable =
-                    variable.ok_or_else(|| wrong("the name", "that of a parameter or input".to_owned(), name))?;
+                let expected = || "that of a parameter or input".to_owned();
+                let variable = variable.ok_or_else(|| wrong("the name", expected(), name))?;
                 assign(variable, &mut unit.start, value).map_err(|expected| wrong(key, expected, value))?;
             }
             (_, None) => return Err(StartFileError::NoStructure),
         }
     }
     let mut unit = unit.ok_or(StartFileError::NoStructure)?;
-    if !rows.is_empty() {
-        let refused = |reason| StartFileError::Rows { rows: M::ROWS, reason };
-        M::take_rows(&mut unit.start, &rows).map_err(refused)?;
-    }
+    let taken = if rows.is_empty() { Ok(()) } else { M::take_rows(&mut unit.start, &rows) };
+    taken.map_err(|reason| StartFileError::Rows { rows: M::ROWS, reason })?;
     Ok(unit)
 }
 

@@ -49,7 +49,9 @@ pub enum TableError {
         found: String,
     },
     /// A speed at which nothing gets anywhere.
-    #[error("the speed must be a number of m/s above 0, with which the path takes a time that can be counted, but is {found}")]
+    #[error(
+        "the speed must be a number of m/s above 0, with which the path takes a time that can be counted, but is {found}"
+    )]
     Speed {
         /// The speed \[m/s\].
         found: f64,
@@ -172,11 +174,8 @@ fn between(from: &Knot, to: &Knot, t: f64) -> Target {
     let way = to.position - from.position - (v + a * (0.5 * h)) * h;
     let rate = (to.velocity - v - a * h) * h;
     let bend = (to.acceleration - a) * (0.5 * h * h);
-    let [c3, c4, c5] = [
-        way * 10.0 - rate * 4.0 + bend,
-        way * -15.0 + rate * 7.0 - bend * 2.0,
-        way * 6.0 - rate * 3.0 + bend,
-    ];
+    let [c3, c4, c5] =
+        [way * 10.0 - rate * 4.0 + bend, way * -15.0 + rate * 7.0 - bend * 2.0, way * 6.0 - rate * 3.0 + bend];
     Target {
         displacement: (v + a * (0.5 * elapsed)) * elapsed + (c3 + (c4 + c5 * s) * s) * (s * s * s),
         velocity: v + a * elapsed + (c3 * 3.0 + (c4 * 4.0 + c5 * (5.0 * s)) * s) * (s * s / h),

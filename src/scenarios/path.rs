@@ -58,16 +58,18 @@ pub(super) fn read(
     };
     let points = points.iter().enumerate().map(pair).collect::<Result<Vec<[f64; 2]>, Error>>()?;
     let metres_per_second = number(speed.value, &METRE_PER_SECOND).ok_or_else(|| speed.wrong(SPEED.1))?;
-    PathTable::through(&points, metres_per_second).map(Some).map_err(|reason| {
-        refused(if matches!(reason, TableError::Speed { .. }) { speed } else { waypoints }, reason)
-    })
+    PathTable::through(&points, metres_per_second)
+        .map(Some)
+        .map_err(|reason| refused(if matches!(reason, TableError::Speed { .. }) { speed } else { waypoints }, reason))
 }
 
 /// Lists of numbers, of these units in their order; what else is found instead.
 fn rows(value: &DeValue<'_>, units: &[&PhysicalUnit]) -> Result<Vec<Vec<f64>>, String> {
     let DeValue::Array(rows) = value else { return Err(super::reader::found(value)) };
     let row = |(n, row): (usize, &DeValue<'_>)| {
-        let DeValue::Array(numbers) = row else { return Err(format!("{} in row {}", super::reader::found(row), n + 1)) };
+        let DeValue::Array(numbers) = row else {
+            return Err(format!("{} in row {}", super::reader::found(row), n + 1));
+        };
         let units = units.iter().copied().chain(std::iter::repeat(&METRE));
         let read = |(value, unit): (&DeValue<'_>, &PhysicalUnit)| {
             number(value, unit).ok_or_else(|| format!("{} in row {}", super::reader::found(value), n + 1))

@@ -74,7 +74,8 @@ balance = \"{balance}\"
 
 /// The rows of a path.
 fn rows(table: &PathTable) -> String {
-    let mut text = "path = [ # each: time [s], x, y [m], and velocities along both [m/s] if they are given\n".to_owned();
+    let mut text =
+        "path = [ # each: time [s], x, y [m], and velocities along both [m/s] if they are given\n".to_owned();
     for row in table.rows() {
         // Writing to a text cannot fail.
         let _ = writeln!(text, "    {row:?},");
