@@ -1,5 +1,7 @@
 //! Paths as tables: closed forms, what is continuous, what is refused, and the way through a start file.
 
+#![allow(clippy::unwrap_used)] // in helpers, too
+
 mod common;
 
 use std::sync::Arc;

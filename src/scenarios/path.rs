@@ -54,7 +54,7 @@ pub(super) fn read(
     let points = rows(waypoints.value, &[&METRE, &METRE]).map_err(|found| waypoints.with_found(WAYPOINTS.1, found))?;
     let pair = |(n, point): (usize, &Vec<f64>)| {
         let found = || format!("{} numbers in point {}", point.len(), n + 1);
-        point.as_array().copied().ok_or_else(|| waypoints.with_found(WAYPOINTS.1, found()))
+        <[f64; 2]>::try_from(point.as_slice()).map_err(|_| waypoints.with_found(WAYPOINTS.1, found()))
     };
     let points = points.iter().enumerate().map(pair).collect::<Result<Vec<[f64; 2]>, Error>>()?;
     let metres_per_second = number(speed.value, &METRE_PER_SECOND).ok_or_else(|| speed.wrong(SPEED.1))?;
