@@ -1,9 +1,15 @@
 //! The wanted motion of the end effector, relative to where it starts.
 
+use std::sync::Arc;
+
 use crate::error::{Error, Result};
 use crate::mechanics::planar::{Rotation, Vec2, vec2};
 use crate::memory;
 use crate::options;
+
+mod table;
+
+pub use table::{MOST_KNOTS, PathTable, TableError};
 
 /// Number of legs that a path can have.
 pub const LEGS: usize = 4;
@@ -17,6 +23,8 @@ options! {
         Circle = "circle",
         #[doc = " Position, velocity and acceleration come as inputs."]
         External = "external",
+        #[doc = " The path of a table inside the FMU."]
+        Table = "table",
     }
 }
 
@@ -160,7 +168,7 @@ impl Target {
 memory!(Target { displacement, velocity, acceleration });
 
 /// The wanted motion of the end effector.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Reference {
     /// Which of the motions.
     pub kind: ReferenceKind,
@@ -170,14 +178,25 @@ pub struct Reference {
     pub circle: Circle,
     /// When the values of an external reference are valid.
     pub instant: ReferenceInstant,
+    /// The path of [`ReferenceKind::Table`], if there is one. Nothing changes it during a run, so copies share it.
+    pub table: Option<Arc<PathTable>>,
 }
 
 impl Reference {
-    /// Checks that every leg has time for its ramps.
+    /// Checks that every leg has time for its ramps, and that there is a table if it is followed.
     ///
     /// # Errors
-    /// Names the leg whose two ramps are longer than the leg.
+    /// Names the leg whose two ramps are longer than the leg, or says how a table comes into a unit.
     pub fn check(&self) -> Result<()> {
+        if self.kind == ReferenceKind::Table && self.table.is_none() {
+            return Err(Error::Inconsistent {
+                name: "reference.kind".to_owned(),
+                expected: "this unit has no table; give a scenario file a `path`, and build FMUs with it: \
+                           `build --scenario FILE`"
+                    .to_owned(),
+                found: "table".to_owned(),
+            });
+        }
         for (j, leg) in self.legs.iter().enumerate().filter(|(_, leg)| leg.duration > 0.0) {
             if 2.0 * leg.ramp > leg.duration || (leg.ramp == 0.0 && leg.profile == Profile::Smooth) {
                 return Err(Error::Inconsistent {
@@ -204,6 +223,7 @@ impl Reference {
             }
             ReferenceKind::Circle => self.circle.duration,
             ReferenceKind::External => f64::INFINITY,
+            ReferenceKind::Table => self.table.as_ref().map_or(0.0, |table| table.end()),
         }
     }
 
@@ -234,6 +254,14 @@ impl Reference {
                 target.acceleration = radius * (acceleration * vec2(-sin, cos) - rate * rate * vec2(cos, sin));
             }
             ReferenceKind::External => {}
+            ReferenceKind::Table => self.write_table(t, target),
         }
+    }
+
+    /// Apart from the other kinds, whose code it would make longer.
+    #[inline(never)]
+    fn write_table(&self, t: f64, target: &mut Target) {
+        let motion = self.table.as_ref().map_or(Target::AT_REST, |table| table.at(t));
+        *target = Target { displacement: target.displacement + motion.displacement, ..motion };
     }
 }

@@ -7,6 +7,7 @@
 
 mod catalogue;
 mod error;
+mod path;
 mod quantity;
 mod reader;
 mod syntax;
@@ -15,6 +16,7 @@ mod writer;
 
 pub use catalogue::{catalogue, find, of_the_thesis};
 pub use error::{Error, Problem};
+pub use path::Files;
 pub use writer::Extent;
 
 pub use crate::parameters::defaults::{PICK_UP_DURATION, THESIS_STEP, default_parameters};
@@ -45,9 +47,20 @@ impl Scenario {
     /// Reads a scenario from the text of a TOML file.
     ///
     /// # Errors
-    /// Names the line, and the key or value in it, that is not understood, with what is allowed.
+    /// Names the line, and the key or value in it, that is not understood, with what is allowed; a path in a file of its own
+    /// is not: see [`Self::read_with`].
     pub fn read(text: &str) -> Result<Self, Error> {
-        reader::read(text, &catalogue()?)
+        let none =
+            "only the text of the scenario is read here, no other file; its rows may stand in the scenario itself";
+        Self::read_with(text, &|_| Err(none.to_owned()))
+    }
+
+    /// As [`Self::read`], with `files` to give the text of the csv file that may hold the path.
+    ///
+    /// # Errors
+    /// As [`Self::read`].
+    pub fn read_with(text: &str, files: Files<'_>) -> Result<Self, Error> {
+        reader::read(text, &catalogue()?, files)
     }
 
     /// The scenario with other values of parameters, `duration` or `step`, each written as in a file; a word needs
@@ -58,7 +71,7 @@ impl Scenario {
     pub fn with<'a>(&self, changes: impl IntoIterator<Item = (&'a str, &'a str)>) -> Result<Self, Error> {
         let mut text = writer::based_on(self);
         changes.into_iter().for_each(|(name, value)| writer::change(&mut text, name, value));
-        reader::read(&text, std::slice::from_ref(self)).map_err(|error| match error {
+        reader::read(&text, std::slice::from_ref(self), &reader::no_files).map_err(|error| match error {
             // The lines are ours.
             Error::Line { problem, .. } => Error::Change(problem),
             error => error,

@@ -22,7 +22,7 @@ enum Given {
 /// an external reference, over the way there and the beginning of the way back \[m\].
 fn error(instant: ReferenceInstant, given: Given, step: f64) -> f64 {
     let mut parameters = default_parameters(Structure::DEFAULT);
-    let path = parameters.reference;
+    let path = parameters.reference.clone();
     (parameters.reference.kind, parameters.reference.instant) = (ReferenceKind::External, instant);
     let mut coupling = Coupling::new(Structure::DEFAULT, &parameters);
     let origin = coupling.plant.outputs.end_effector;

@@ -20,6 +20,7 @@ fn path(legs: &[Leg]) -> Reference {
         legs: all,
         circle: Circle { diameter: 0.1, duration: 4.0, start_angle: 0.7 },
         instant: ReferenceInstant::StepStart,
+        table: None,
     }
 }
 

@@ -1,6 +1,7 @@
 //! What the commands do.
 
 use std::path::Path;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use anyhow::{Context, Result};
@@ -8,9 +9,10 @@ use fmu_build::host::coupling::{self, Pair};
 use fmu_build::host::run::Run;
 use fmu_build::study::Summary;
 use fmu_build::study::claims::DISCRETIZATIONS;
-use fmu_build::{BuildOptions, Built, workspace};
+use fmu_build::{BuildOptions, Built, Design, workspace};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use uam::Structure;
+use uam::reference::PathTable;
 use uam::scenarios::{self, Extent, Scenario};
 
 use crate::cli::{Arguments, Command};
@@ -61,7 +63,12 @@ fn scenario(name_or_file: &str) -> Result<Scenario> {
         return scenarios::find(name_or_file).context("`list` shows all scenarios; a file of your own ends in .toml");
     }
     let text = std::fs::read_to_string(name_or_file).with_context(|| format!("cannot read {name_or_file}"))?;
-    Scenario::read(&text).with_context(|| name_or_file.to_owned())
+    // The names of other files in it count from where it lies itself.
+    let beside = |name: &str| {
+        let path = Path::new(name_or_file).with_file_name("").join(name);
+        std::fs::read_to_string(&path).map_err(|reason| format!("cannot read {}: {reason}", path.display()))
+    };
+    Scenario::read_with(&text, &beside).with_context(|| name_or_file.to_owned())
 }
 
 /// A display of progress, for those who want to see it.
@@ -98,30 +105,35 @@ fn speed(runs: &[&Run]) -> String {
     format!("{simulated:.0} s simulated in {elapsed:.2} s: {:.0} times faster than real time.", simulated / elapsed)
 }
 
-/// The FMUs of several structures, with the start values of the library.
-struct Pairs(Vec<(Structure, Pair)>);
+/// The FMUs of several structures, with the start values of the library, and the tables of paths, which cannot be set.
+struct Pairs(Vec<(Structure, Option<Arc<PathTable>>, Pair)>);
 
 impl Pairs {
-    /// Builds those of each structure once, and loads them.
+    /// Builds those for each structure and table of these scenarios once, and loads them.
     ///
     /// They are in a folder of their own, which is gone afterwards: what is in the user's folder may be other FMUs,
     /// of a vehicle of their own for instance.
-    fn build(structures: impl IntoIterator<Item = Structure>) -> Result<Self> {
-        let mut pairs: Vec<(Structure, Pair)> = Vec::new();
-        for structure in structures {
-            if pairs.iter().all(|(built, _)| *built != structure) {
+    fn build<'a>(scenarios: impl IntoIterator<Item = &'a Scenario>) -> Result<Self> {
+        let mut pairs = Self(Vec::new());
+        for scenario in scenarios {
+            if pairs.of(scenario).is_err() {
                 let folder = tempfile::tempdir().context("cannot make a temporary folder")?;
-                let built = build_files(&BuildOptions::new(structure, folder.path()))?;
-                pairs.push((structure, Pair::open(&built.controller, &built.plant)?));
+                let table = &scenario.parameters.reference.table;
+                let mut design = Design::from(scenario.structure);
+                design.parameters.reference.table.clone_from(table);
+                let built = build_files(&BuildOptions::new(design, folder.path()))?;
+                pairs.0.push((scenario.structure, table.clone(), Pair::open(&built.controller, &built.plant)?));
             }
         }
-        Ok(Self(pairs))
+        Ok(pairs)
     }
 
-    /// The pair of a structure.
-    fn of(&self, structure: Structure) -> Result<&Pair, coupling::Error> {
-        let built = self.0.iter().find(|(built, _)| *built == structure);
-        built.map(|(_, pair)| pair).ok_or(coupling::Error::NotBuilt { structure })
+    /// The pair for the structure and the table of a scenario.
+    fn of(&self, scenario: &Scenario) -> Result<&Pair, coupling::Error> {
+        let structure = scenario.structure;
+        let fits = |table: &Option<_>| *table == scenario.parameters.reference.table;
+        let built = self.0.iter().find(|(built, table, _)| *built == structure && fits(table));
+        built.map(|(_, _, pair)| pair).ok_or(coupling::Error::NotBuilt { structure })
     }
 }
 

@@ -13,7 +13,6 @@ pub mod verdict;
 use std::time::Duration;
 
 use rayon::prelude::*;
-use uam::Structure;
 use uam::parameters::Discretization;
 use uam::scenarios::{self, Scenario, catalogue};
 use uam::variables::options::Choice;
@@ -119,18 +118,18 @@ pub struct Summary {
     pub outcomes: [Outcome; 2],
 }
 
-/// Runs scenarios with each discretization, on all cores. `pair` finds the FMUs of a structure.
+/// Runs scenarios with each discretization, on all cores. `pair` finds the FMUs of a scenario.
 ///
 /// # Errors
 /// If one of them cannot be started.
 pub fn run_all<'a>(
     scenarios: Vec<Scenario>,
-    pair: &(dyn Fn(Structure) -> Result<&'a Pair, Error> + Sync),
+    pair: &(dyn Fn(&Scenario) -> Result<&'a Pair, Error> + Sync),
     progress: &(dyn Fn() + Sync),
 ) -> Result<Vec<Summary>, Error> {
     let jobs = with_each(&scenarios);
     let run = |&(scenario, discretization): &(&Scenario, Discretization)| {
-        let run = run_with(pair(scenario.structure)?, scenario, discretization, progress)?;
+        let run = run_with(pair(scenario)?, scenario, discretization, progress)?;
         Ok(Outcome::of(&run)?)
     };
     let outcomes = on_all_cores(&jobs, run).into_iter().collect::<Result<Vec<Outcome>, Error>>()?;

@@ -20,7 +20,7 @@ use uam::scenarios::{Scenario, find, of_the_thesis};
 static SUMMARIES: LazyLock<Vec<Summary>> = LazyLock::new(|| run(of_the_thesis().unwrap()));
 
 fn run(scenarios: Vec<Scenario>) -> Vec<Summary> {
-    study::run_all(scenarios, &|structure| Ok(common::pair_of(structure)), &|| {}).unwrap()
+    study::run_all(scenarios, &|scenario| Ok(common::pair_of(scenario.structure)), &|| {}).unwrap()
 }
 
 /// Every statement holds with both discretizations, but for those that are marked as deviations: none of these

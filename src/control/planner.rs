@@ -79,7 +79,7 @@ impl<const N: usize> Controller<N> {
             discretization: ik.discretization,
             clock: Clock::new(ik.sample_time),
             grasp_time: parameters.payload.grasp_time,
-            foreseen: Foreseen::new(parameters.reference, origin),
+            foreseen: Foreseen::new(parameters.reference.clone(), origin),
             previous_slope: SVector::zeros(),
             planned_end,
             untouched: false,

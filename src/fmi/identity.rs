@@ -36,6 +36,19 @@ impl<M: Model> Identity<M> {
         Self { structure, naming: Naming::Structured, start: M::start(structure) }
     }
 
+    /// The same without start values of its own, but for those that no variable names: whatever all saved states of the
+    /// unit have in common.
+    #[must_use]
+    pub fn unset(&self) -> Self {
+        let mut unset = Self::of(self.structure);
+        let rows = M::rows(&self.start);
+        if !rows.is_empty() {
+            // They have been taken before.
+            let _ = M::take_rows(&mut unset.start, &rows);
+        }
+        unset
+    }
+
     /// All units that the library knows by itself, the default first.
     fn known() -> impl Iterator<Item = Self> {
         Naming::ALL.into_iter().flat_map(|naming| M::structures().map(move |of| Self { naming, ..Self::of(of) }))
@@ -87,6 +100,13 @@ impl<M: Model> Identity<M> {
         for variable in self.table().variables() {
             // Writing to a string cannot fail.
             let _ = describe(&mut text, variable, &self.start);
+        }
+        for row in M::rows(&self.start) {
+            text.push_str(M::ROWS);
+            for number in row {
+                let _ = write!(text, " {:016x}", number.to_bits());
+            }
+            text.push('\n');
         }
         Guid(Uuid::new_v5(&NAMESPACE, text.as_bytes()))
     }

@@ -39,6 +39,9 @@ pub trait Model: Memory + Clone + Send + Sized + 'static {
     /// Part of the unit's identity: counts changes of meaning that its table of variables does not show.
     const INTERFACE_VERSION: u32 = 1;
 
+    /// What the rows of [`Model::rows`] are called in files, for instance `path`; nothing if there never are any.
+    const ROWS: &'static str = "";
+
     /// What is chosen when an FMU is built and fixes its variables.
     type Structure: Copy + PartialEq + Debug + Display + Send + Sync + 'static;
     /// Parameters, inputs and outputs.
@@ -96,6 +99,27 @@ pub trait Model: Memory + Clone + Send + Sized + 'static {
     /// # Errors
     /// If data and tape are not those of a simulation. None that comes back may panic or hang later.
     fn restore(structure: Self::Structure, data: &Self::Data, tape: &mut Tape<'_>) -> Result<Self, Self::Error>;
+
+    /// Rows of numbers that belong to the start values of a unit although no variable names them: a host cannot change them.
+    fn rows(data: &Self::Data) -> Vec<Vec<f64>> {
+        let _ = data;
+        Vec::new()
+    }
+
+    /// Takes over what [`Model::rows`] gave.
+    ///
+    /// # Errors
+    /// If these cannot be the rows of this model.
+    fn take_rows(data: &mut Self::Data, rows: &[Vec<f64>]) -> Result<(), String> {
+        let _ = (data, rows);
+        Err("this unit has none".to_owned())
+    }
+
+    /// Whether both have the same rows; saved states do not hold them.
+    fn has_same_rows(one: &Self::Data, other: &Self::Data) -> bool {
+        let _ = (one, other);
+        true
+    }
 
     /// Passes by a tape what of the data influences the future although no variable names it.
     fn pass_unnamed(data: &mut Self::Data, tape: &mut Tape<'_>) {

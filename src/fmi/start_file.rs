@@ -8,8 +8,8 @@
 //! ```
 //!
 //! One value a line: of TOML this is all that is needed, and all that is understood. Numbers are given by their
-//! bits: reading decimal digits exactly would take 15 kB of code. The file may come from
-//! anywhere; what it says counts only if it gives the GUID of the unit.
+//! bits, also those of rows, `"path[1]" = [0x0000000000000000, 0x3ff0000000000000]`: reading decimal digits exactly would
+//! take 15 kB of code. The file may come from anywhere; what it says counts only if it gives the GUID of the unit.
 
 use std::fmt::Write;
 use std::fs::{self, File};
@@ -26,8 +26,8 @@ use crate::variables::{Causality, Kind, Variable};
 /// Name of the file.
 pub const NAME: &str = "start.toml";
 
-/// Most bytes of it; with all its parameters, a unit needs some thousands.
-const LARGEST: u64 = 1 << 16;
+/// Most bytes of it; with all its parameters, a unit needs some thousands, and with the longest path some millions.
+const LARGEST: u64 = 1 << 24;
 
 const STRUCTURE: &str = "structure";
 const NAMING: &str = "naming";
@@ -62,6 +62,14 @@ pub enum StartFileError {
         /// What is there.
         found: String,
     },
+    /// Rows that do not go together.
+    #[error("{NAME}, {rows}: {reason}")]
+    Rows {
+        /// What they are called.
+        rows: &'static str,
+        /// What is wrong.
+        reason: String,
+    },
     /// No line says which variables there are.
     #[error("{NAME} must have {STRUCTURE} first")]
     NoStructure,
@@ -78,6 +86,10 @@ pub fn write<M: Model>(unit: &Identity<M>) -> Option<String> {
             // Writing to a string cannot fail.
             let _ = writeln!(changes, "\"{}\" = {value}", variable.name);
         }
+    }
+    for (number, row) in (1..).zip(M::rows(&unit.start)) {
+        let bits: Vec<String> = row.iter().map(|number| format!("{:#018x}", number.to_bits())).collect();
+        let _ = writeln!(changes, "\"{}[{number}]\" = [{}]", M::ROWS, bits.join(", "));
     }
     let head = format!("{STRUCTURE} = \"{}\"\n{NAMING} = \"{}\"\n", unit.structure, unit.naming.name());
     (!changes.is_empty()).then(|| format!("# The start values that differ from those of the library.\n{head}{changes}"))
@@ -150,6 +162,7 @@ fn read<M: Model>(text: &str) -> Result<Identity<M>, StartFileError> {
     let lines = (1..).zip(text.lines().map(str::trim)).filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
     let mut unit = None;
     let mut table = None;
+    let mut rows: Vec<Vec<f64>> = Vec::new();
     for (number, line) in lines {
         let wrong = |key: &str, expected: String, found: &str| StartFileError::Line {
             line: number,
@@ -170,17 +183,40 @@ fn read<M: Model>(text: &str) -> Result<Identity<M>, StartFileError> {
                 let known = Naming::ALL.into_iter().find(|naming| naming.name() == unquoted(value));
                 unit.naming = known.ok_or_else(|| wrong(key, Naming::ALL.map(Naming::name).join(" or "), value))?;
             }
+            (name, Some(_)) if is_row::<M>(name) => {
+                let next = format!("{}[{}]", M::ROWS, rows.len() + 1);
+                if name != next {
+                    return Err(wrong("the next row", next, name));
+                }
+                rows.push(row(value).ok_or_else(|| wrong(key, "[bits of numbers, ...]".to_owned(), value))?);
+            }
             (name, Some(unit)) => {
                 let table = table.get_or_insert_with(|| unit.table());
                 let variable = table.find(name).filter(|variable| is_set_from_outside(variable));
-                let variable =
-                    variable.ok_or_else(|| wrong("the name", "that of a parameter or input".to_owned(), name))?;
+                let expected = || "that of a parameter or input".to_owned();
+                let variable = variable.ok_or_else(|| wrong("the name", expected(), name))?;
                 assign(variable, &mut unit.start, value).map_err(|expected| wrong(key, expected, value))?;
             }
             (_, None) => return Err(StartFileError::NoStructure),
         }
     }
-    unit.ok_or(StartFileError::NoStructure)
+    let mut unit = unit.ok_or(StartFileError::NoStructure)?;
+    let taken = if rows.is_empty() { Ok(()) } else { M::take_rows(&mut unit.start, &rows) };
+    taken.map_err(|reason| StartFileError::Rows { rows: M::ROWS, reason })?;
+    Ok(unit)
+}
+
+fn is_row<M: Model>(name: &str) -> bool {
+    !M::ROWS.is_empty() && name.strip_prefix(M::ROWS).is_some_and(|index| index.starts_with('['))
+}
+
+/// The numbers of a row, by their bits.
+fn row(value: &str) -> Option<Vec<f64>> {
+    value.strip_prefix('[')?.strip_suffix(']')?.split(',').map(|number| from_bits(number.trim())).collect()
+}
+
+fn from_bits(text: &str) -> Option<f64> {
+    text.strip_prefix("0x").and_then(|bits| u64::from_str_radix(bits, 16).ok()).map(f64::from_bits)
 }
 
 fn is_set_from_outside<D>(variable: &Variable<D>) -> bool {
@@ -203,8 +239,7 @@ fn spelled<D>(variable: &Variable<D>, data: &D) -> String {
 fn assign<D>(variable: &Variable<D>, data: &mut D, value: &str) -> Result<(), String> {
     match variable.kind {
         Kind::Real { bounds, at, .. } => {
-            let digits = value.split_whitespace().next().and_then(|bits| bits.strip_prefix("0x"));
-            let number = digits.and_then(|bits| u64::from_str_radix(bits, 16).ok()).map(f64::from_bits);
+            let number = value.split_whitespace().next().and_then(from_bits);
             let number = number.filter(|number| bounds.admit(*number));
             *at.get_mut(data) = number.ok_or_else(|| format!("the bits of {bounds}"))?;
         }
@@ -336,9 +371,9 @@ mod tests {
 
     #[test]
     fn only_a_file_of_sane_length_is_read() {
-        let (folder, location) = file(&"#".repeat(1 << 17));
+        let (folder, location) = file(&"#".repeat((1 << 24) + 1));
         let message = || Place::said(Some(&location)).unit::<Toy>(None).unwrap_err().to_string();
-        assert!(message().contains("more than 65536 bytes"), "{}", message());
+        assert!(message().contains("more than 16777216 bytes"), "{}", message());
         fs::write(folder.path().join(NAME), [0xff, 0xfe]).unwrap();
         assert!(message().contains("UTF-8"), "{}", message());
         fs::remove_file(folder.path().join(NAME)).unwrap();

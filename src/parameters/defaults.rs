@@ -89,6 +89,7 @@ pub fn default_parameters(structure: Structure) -> Parameters {
             legs: pick_up_path(dx, dy),
             circle: Circle { diameter: 0.06, duration: 4.0, start_angle: PI },
             instant: ReferenceInstant::StepStart,
+            table: None,
         },
     }
 }

@@ -39,8 +39,8 @@ pub fn catalogue() -> Result<Vec<Scenario>, Error> {
 fn read_all() -> Result<Vec<Scenario>, Error> {
     let mut scenarios = Vec::with_capacity(FILES.len());
     for &(file, text) in FILES {
-        let scenario =
-            reader::read(text, &scenarios).map_err(|source| Error::Catalogue { file, source: Box::new(source) })?;
+        let scenario = reader::read(text, &scenarios, &reader::no_files)
+            .map_err(|source| Error::Catalogue { file, source: Box::new(source) })?;
         scenarios.push(scenario);
     }
     Ok(scenarios)

@@ -113,6 +113,14 @@ pub enum Problem {
     /// A parameter that does not go together with the others.
     #[error(transparent)]
     Parameter(crate::Error),
+    /// Rows, waypoints or a file that are no path.
+    #[error("`{key}`: {reason}")]
+    Path {
+        /// The key.
+        key: String,
+        /// What is wrong.
+        reason: String,
+    },
     /// The scenario that this one is based on does not exist.
     #[error("`based_on` must be the name of a scenario of the catalogue, but there is no `{id}`{}", proposals(near))]
     NoScenario {

@@ -1,14 +1,18 @@
 //! Reads scenario files: every key is known and of the right type, or refused with its line.
 
+use std::sync::Arc;
+
 use toml::de::{DeTable, DeValue};
 
 use super::error::near;
+use super::path::{self, Files, PATH, SPEED, WAYPOINTS};
 use super::quantity;
 use super::syntax::{self, printable};
 use super::unknown::{near_keys, no_parameter};
 use super::{Error, Problem, Scenario, THESIS_STEP, default_parameters};
 use crate::control;
 use crate::parameters::{Balance, Parameters, Structure};
+use crate::reference::ReferenceKind;
 use crate::variables::unit::{self, PhysicalUnit};
 use crate::variables::{Kind, Table, Variable};
 
@@ -20,7 +24,8 @@ pub(super) const DURATION: (&str, &str) = ("duration", "a number of seconds abov
 pub(super) const STEP: (&str, &str) = ("step", "a number of seconds above 0, at most the duration");
 const LINKS: (&str, &str) = ("structure.links", "a whole number from 1 to 6");
 const BALANCE: (&str, &str) = ("structure.balance", "\"none\", \"counterweight\" or \"balance_element\"");
-pub(super) const KEYS: [(&str, &str); 7] = [ID, TITLE, BASED_ON, DURATION, STEP, LINKS, BALANCE];
+pub(super) const KEYS: [(&str, &str); 10] =
+    [ID, TITLE, BASED_ON, DURATION, STEP, LINKS, BALANCE, PATH, WAYPOINTS, SPEED];
 /// The table of all parameters.
 pub(super) const PARAMETERS: &str = "parameters";
 
@@ -28,16 +33,22 @@ pub(super) const PARAMETERS: &str = "parameters";
 pub(super) struct Entry<'a> {
     pub(super) key: String,
     pub(super) line: usize,
-    value: &'a DeValue<'a>,
+    pub(super) value: &'a DeValue<'a>,
 }
 
 /// All entries of a file, in its order.
 struct Document<'a> {
     entries: Vec<Entry<'a>>,
+    files: Files<'a>,
+}
+
+/// For texts of our own, which name none.
+pub(super) fn no_files(name: &str) -> Result<String, String> {
+    Err(format!("there is no file {name}"))
 }
 
 /// Reads a scenario that may be based on one of those that are known.
-pub(super) fn read(text: &str, known: &[Scenario]) -> Result<Scenario, Error> {
+pub(super) fn read(text: &str, known: &[Scenario], files: Files<'_>) -> Result<Scenario, Error> {
     let line_of = |position: usize| text.bytes().take(position).filter(|&byte| byte == b'\n').count() + 1;
     let (table, mistakes) = DeTable::parse_recoverable(text);
     let mut entries = Vec::new();
@@ -50,7 +61,7 @@ pub(super) fn read(text: &str, known: &[Scenario]) -> Result<Scenario, Error> {
         let problem = syntax::problem(mistake.message(), text.get(span).unwrap_or_default(), whole, line, &entries);
         return Err(Error::Line { line, problem });
     }
-    let document = Document { entries };
+    let document = Document { entries, files };
     document.check_keys()?;
     document.scenario(known)
 }
@@ -123,6 +134,11 @@ impl Document<'_> {
         let mut parameters = default_parameters(structure);
         if let Some(base) = base.filter(|base| base.structure == structure) {
             parameters.clone_from(&base.parameters);
+        }
+        let entry = |key| self.field(key).map(|field| field.entry);
+        if let Some(table) = path::read(entry(PATH), [entry(WAYPOINTS), entry(SPEED)], self.files)? {
+            parameters.reference.table = Some(Arc::new(table));
+            parameters.reference.kind = ReferenceKind::Table;
         }
         self.set_parameters(structure, &mut parameters)?;
         Ok(Scenario { id, title, structure, parameters, duration, step })
@@ -253,12 +269,7 @@ impl Entry<'_> {
 
     /// The number in SI units: alone, or with a unit as a text.
     fn quantity(&self, unit: &PhysicalUnit) -> Option<f64> {
-        match self.value {
-            DeValue::String(text) => quantity::read(text, unit),
-            DeValue::Float(value) => value.as_str().parse().ok(),
-            DeValue::Integer(value) if value.radix() == 10 => value.as_str().parse().ok(),
-            _ => None,
-        }
+        number(self.value, unit)
     }
 
     /// Writes the value to where the variable is.
@@ -291,18 +302,33 @@ impl Entry<'_> {
         Ok(())
     }
 
-    fn refused(&self, problem: Problem) -> Error {
+    pub(super) fn refused(&self, problem: Problem) -> Error {
         Error::Line { line: self.line, problem }
     }
 
-    fn wrong(&self, expected: &str) -> Error {
+    pub(super) fn wrong(&self, expected: &str) -> Error {
+        self.with_found(expected, found(self.value))
+    }
+
+    /// The same where a part of the value is wrong.
+    pub(super) fn with_found(&self, expected: &str, found: String) -> Error {
         let key = self.parameter().unwrap_or(&self.key).to_owned();
-        self.refused(Problem::Value { key, expected: expected.to_owned(), found: found(self.value) })
+        self.refused(Problem::Value { key, expected: expected.to_owned(), found })
+    }
+}
+
+/// A number in SI units: alone, or with a unit as a text.
+pub(super) fn number(value: &DeValue<'_>, unit: &PhysicalUnit) -> Option<f64> {
+    match value {
+        DeValue::String(text) => quantity::read(text, unit),
+        DeValue::Float(value) => value.as_str().parse().ok(),
+        DeValue::Integer(value) if value.radix() == 10 => value.as_str().parse().ok(),
+        _ => None,
     }
 }
 
 /// A value as it stands in the file, or what kind of value it is.
-fn found(value: &DeValue<'_>) -> String {
+pub(super) fn found(value: &DeValue<'_>) -> String {
     match value {
         DeValue::String(text) => format!("{text:?}"),
         DeValue::Integer(number) => number.to_string(),

@@ -5,6 +5,7 @@ use std::fmt::Write;
 use super::reader::{DURATION, STEP};
 use super::{Scenario, default_parameters};
 use crate::parameters::Parameters;
+use crate::reference::PathTable;
 use crate::variables::Kind;
 
 /// Which parameters a file holds.
@@ -21,6 +22,7 @@ pub(super) fn write(scenario: &Scenario, extent: Extent) -> String {
     let Scenario { id, title, structure, duration, step, .. } = scenario;
     let [id, title] = [id, title].map(|text| quoted(text));
     let (links, balance) = (structure.links, structure.balance.name());
+    let path = scenario.parameters.reference.table.as_deref().map_or_else(String::new, rows);
     let mut text = format!(
         "\
 # Names, units and bounds of the parameters are those of the FMUs. What is not here has the start value that it
@@ -30,7 +32,7 @@ id = {id}
 title = {title}
 duration = {duration:?} # [s]
 step = {step:?} # between two communication points [s]
-
+{path}
 [structure]
 links = {links}
 balance = \"{balance}\"
@@ -57,7 +59,9 @@ balance = \"{balance}\"
                 (value(parameters), value(defaults), meaning)
             }
         };
-        if extent == Extent::Everything || value != default {
+        // A path is followed unless the file says otherwise.
+        let must_be_said = !path.is_empty() && variable.name == "reference.kind";
+        if extent == Extent::Everything || value != default || must_be_said {
             let name = &variable.name;
             // Brackets need quotes.
             let quote = if name.contains('[') { "\"" } else { "" };
@@ -66,6 +70,17 @@ balance = \"{balance}\"
         }
     }
     text
+}
+
+/// The rows of a path.
+fn rows(table: &PathTable) -> String {
+    let mut text =
+        "path = [ # each: time [s], x, y [m], and velocities along both [m/s] if they are given\n".to_owned();
+    for row in table.rows() {
+        // Writing to a text cannot fail.
+        let _ = writeln!(text, "    {row:?},");
+    }
+    text + "]\n"
 }
 
 /// The beginning of a file that reads as this scenario with some changes.

@@ -3,6 +3,8 @@
 mod inputs;
 mod outputs;
 
+use std::sync::Arc;
+
 use crate::bytes::{Memory, Tape};
 use crate::control::{self, Inputs, OutputDerivatives, Outputs};
 use crate::error::Error;
@@ -10,6 +12,7 @@ use crate::fmi::{CommunicationStep, Model};
 use crate::parameters::culprit::blame;
 use crate::parameters::defaults::default_parameters;
 use crate::parameters::{self, Parameters, Structure};
+use crate::reference::PathTable;
 use crate::variables::Table;
 use crate::variables::declare::{Part, declare};
 
@@ -54,6 +57,7 @@ impl Model for ControllerUnit {
         "Inverse kinematics of an aerial manipulator: joint rates that follow a path although the hovering base reacts";
 
     const INTERFACE_VERSION: u32 = super::INTERFACE_VERSION;
+    const ROWS: &'static str = "path";
 
     type Structure = Structure;
     type Data = Data;
@@ -113,6 +117,20 @@ impl Model for ControllerUnit {
 
     fn differentiate(&self, data: &mut Data, elapsed: f64) {
         data.rates = self.0.output_derivatives(elapsed);
+    }
+
+    fn rows(data: &Data) -> Vec<Vec<f64>> {
+        data.parameters.reference.table.iter().flat_map(|table| table.rows()).collect()
+    }
+
+    fn take_rows(data: &mut Data, rows: &[Vec<f64>]) -> Result<(), String> {
+        let table = PathTable::new(rows).map_err(|error| error.to_string())?;
+        data.parameters.reference.table = Some(Arc::new(table));
+        Ok(())
+    }
+
+    fn has_same_rows(one: &Data, other: &Data) -> bool {
+        one.parameters.reference.table == other.parameters.reference.table
     }
 
     fn restore(structure: Structure, data: &Data, tape: &mut Tape<'_>) -> Result<Self, Error> {

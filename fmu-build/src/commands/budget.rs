@@ -18,8 +18,8 @@ const SCENARIO: &str = "4.3b";
 pub fn execute(arguments: &PrintArguments, out: &Path) -> Result<()> {
     let scenario = find(SCENARIO)?;
     files::create_folder(out)?;
-    let pairs = Pairs::build([scenario.structure])?;
-    let pair = pairs.of(scenario.structure)?;
+    let pairs = Pairs::build([&scenario])?;
+    let pair = pairs.of(&scenario)?;
     let mut jobs: Vec<(Variant, f64)> =
         VARIANTS.into_iter().flat_map(|variant| variant.steps().map(move |step| (variant, step))).collect();
     // Those that take longest begin.

@@ -16,6 +16,10 @@ use crate::terminal::wrote;
 pub fn execute(name_or_file: &str, out: &Path) -> Result<()> {
     let scenario = super::scenario(name_or_file)?;
     let Scenario { id, title, structure, parameters, .. } = &scenario;
+    ensure!(
+        parameters.reference.table.is_none(),
+        "the path of {id} is a table, which no parameter set can hold: `build --scenario` makes FMUs that have it inside"
+    );
     files::create_folder(out)?;
     let set = |changes: Vec<Variable>| parameters::set(id, title, &changes.iter().collect::<Vec<_>>());
     let texts = [

@@ -21,13 +21,13 @@ pub fn execute(arguments: &ReachArguments, out: &Path) -> Result<()> {
     // Before anything is built.
     scenarios.iter().try_for_each(|scenario| enlarged(scenario, STRIDE).map(|_| ()))?;
     files::create_folder(out)?;
-    let pairs = Pairs::build(scenarios.iter().map(|scenario| scenario.structure))?;
+    let pairs = Pairs::build(&scenarios)?;
     let jobs = with_each(&scenarios);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "only for the progress bar")]
     let strides = (FARTHEST / STRIDE) as u64;
     let progress = Progress::new(strides * jobs.len() as u64, "Enlarging the motions")?;
     let results = on_all_cores(&jobs, |&(scenario, discretization)| {
-        let pair = pairs.of(scenario.structure)?;
+        let pair = pairs.of(scenario)?;
         let mut tried = 0;
         let result = reach(|way| {
             tried += 1;

@@ -23,8 +23,8 @@ pub fn execute(arguments: &SimulateArguments, out: &Path) -> Result<()> {
         Schedule::new(0.0, arguments.stop.unwrap_or(scenario.duration), arguments.step.unwrap_or(scenario.step))?;
     files::create_folder(out)?;
 
-    let pairs = Pairs::build([scenario.structure])?;
-    let pair = pairs.of(scenario.structure)?;
+    let pairs = Pairs::build([&scenario])?;
+    let pair = pairs.of(&scenario)?;
     let names = if arguments.all_outputs {
         Names::all_outputs(pair.controller.description(), pair.plant.description())
     } else {

@@ -12,10 +12,10 @@ use crate::terminal::{remark, say};
 
 pub fn execute(arguments: &PrintArguments) -> Result<()> {
     let scenarios = of_the_thesis()?;
-    let pairs = Pairs::build(scenarios.iter().map(|scenario| scenario.structure))?;
+    let pairs = Pairs::build(&scenarios)?;
     let progress = Progress::of(&scenarios, "Simulating")?;
     let begin = Instant::now();
-    let summaries = study::run_all(scenarios, &|structure| pairs.of(structure), &|| progress.point());
+    let summaries = study::run_all(scenarios, &|scenario| pairs.of(scenario), &|| progress.point());
     let elapsed = begin.elapsed().as_secs_f64();
     progress.finish();
     let summaries = summaries?;

@@ -26,9 +26,9 @@ pub fn execute(arguments: &VaryArguments) -> Result<()> {
         .iter()
         .flat_map(|(_, changes)| scenarios.iter().map(|scenario| vary(scenario, changes)))
         .collect::<Result<_, _>>()?;
-    let pairs = Pairs::build(varied.iter().map(|scenario| scenario.structure))?;
+    let pairs = Pairs::build(&varied)?;
     let progress = Progress::of(&varied, "Simulating")?;
-    let summaries = study::run_all(varied, &|structure| pairs.of(structure), &|| progress.point());
+    let summaries = study::run_all(varied, &|scenario| pairs.of(scenario), &|| progress.point());
     progress.finish();
     let summaries = summaries?;
 

@@ -36,6 +36,7 @@ pub fn instants(series: &Series<'_>) -> Vec<f64> {
     let legs = reference.legs.iter().filter(|leg| leg.duration > 0.0);
     let mut events: Vec<f64> = match reference.kind {
         ReferenceKind::Circle => [0.3, 0.5, 0.7].map(|share| share * reference.circle.duration).into(),
+        ReferenceKind::Table => [0.25, 0.5, 0.75, 1.0].map(|share| share * reference.end()).into(),
         ReferenceKind::Path | ReferenceKind::External => {
             legs.flat_map(|leg| [leg.start, leg.start + leg.duration]).collect()
         }

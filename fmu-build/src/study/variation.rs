@@ -1,5 +1,8 @@
 //! A scenario with some of its numbers changed: what depends on a number that the thesis does not print?
 
+use std::sync::Arc;
+
+use uam::reference::TableError;
 use uam::scenarios::{Error, Problem, Scenario};
 
 /// Beside the names of parameters, `duration` and `step`: all times of path and grasp are divided by it.
@@ -28,7 +31,7 @@ pub fn vary(scenario: &Scenario, changes: Changes<'_>) -> Result<Scenario, Error
                 continue;
             }
         };
-        varied = change(varied.with(std::mem::take(&mut values))?, factor(name, value)?);
+        varied = change(varied.with(std::mem::take(&mut values))?, factor(name, value)?)?;
     }
     varied.with(values)
 }
@@ -39,21 +42,30 @@ fn factor(name: &str, value: &str) -> Result<f64, Error> {
     number.ok_or_else(|| Error::Change(refused()))
 }
 
-fn at_pace(mut scenario: Scenario, pace: f64) -> Scenario {
+fn at_pace(mut scenario: Scenario, pace: f64) -> Result<Scenario, Error> {
     let parameters = &mut scenario.parameters;
     let legs = parameters.reference.legs.iter_mut();
     let times = legs.flat_map(|leg| [&mut leg.start, &mut leg.duration, &mut leg.ramp]);
     for time in times.chain([&mut parameters.reference.circle.duration, &mut parameters.payload.grasp_time]) {
         *time /= pace;
     }
-    scenario
+    scale_table(scenario, PACE, pace, 1.0)
 }
 
-fn of_size(mut scenario: Scenario, size: f64) -> Scenario {
+fn of_size(mut scenario: Scenario, size: f64) -> Result<Scenario, Error> {
     let reference = &mut scenario.parameters.reference;
     let ways = reference.legs.iter_mut().flat_map(|leg| [&mut leg.dx, &mut leg.dy]);
     ways.chain([&mut reference.circle.diameter]).for_each(|way| *way *= size);
-    scenario
+    scale_table(scenario, SIZE, 1.0, size)
+}
+
+fn scale_table(mut scenario: Scenario, name: &str, pace: f64, size: f64) -> Result<Scenario, Error> {
+    if let Some(table) = &mut scenario.parameters.reference.table {
+        let refused =
+            |reason: TableError| Error::Change(Problem::Path { key: name.to_owned(), reason: reason.to_string() });
+        *table = Arc::new(table.scaled(pace, size).map_err(refused)?);
+    }
+    Ok(scenario)
 }
 
 #[cfg(test)]

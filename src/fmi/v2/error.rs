@@ -163,6 +163,12 @@ pub enum Error {
         /// The structure of the state.
         found: String,
     },
+    /// A state of an instance with other rows of numbers, which states do not hold.
+    #[error("FMUstate belongs to an instance with another {rows}")]
+    OtherRows {
+        /// What they are called.
+        rows: &'static str,
+    },
     /// Bytes that are no state of this unit, structure and version.
     #[error("serializedState is {what}: it must begin with \"{expected}\", but begins with \"{found}\"")]
     ForeignBytes {

@@ -46,10 +46,10 @@ impl<M: Model> Instance<M> {
     /// Goes on from a saved state, also that of another instance.
     ///
     /// # Errors
-    /// If it belongs to an instance of another structure.
+    /// If it belongs to an instance of another structure, or with other rows.
     pub fn restore(&mut self, saved: &Saved<M>) -> Result<(), Error> {
         self.permit(Call::SetFMUstate)?;
-        self.check_structure(saved)?;
+        self.check_unit(saved)?;
         self.now.clone_from(&saved.then);
         Ok(())
     }
@@ -69,9 +69,9 @@ impl<M: Model> Instance<M> {
     /// A state as bytes that outlive the process.
     ///
     /// # Errors
-    /// If it belongs to an instance of another structure.
+    /// If it belongs to an instance of another structure, or with other rows.
     pub fn write_saved(&self, saved: &Saved<M>) -> Result<Vec<u8>, Error> {
-        self.check_structure(saved)?;
+        self.check_unit(saved)?;
         let mut content = Vec::new();
         let mut tape = Tape::recording(&mut content);
         let mut then = saved.then.clone();
@@ -87,19 +87,20 @@ impl<M: Model> Instance<M> {
         Ok(all)
     }
 
-    fn check_structure(&self, saved: &Saved<M>) -> Result<(), Error> {
+    fn check_unit(&self, saved: &Saved<M>) -> Result<(), Error> {
         if saved.structure == self.unit.structure {
-            return Ok(());
+            let same = M::has_same_rows(&saved.then.data, &self.unit.start);
+            return if same { Ok(()) } else { Err(Error::OtherRows { rows: M::ROWS }) };
         }
         let (expected, found) = (self.unit.structure.to_string(), saved.structure.to_string());
         Err(Error::OtherStructure { expected, found })
     }
 
     /// What the bytes of every state of this structure begin with, whatever start values the unit has: a state has
-    /// them all. The GUID in it takes longer than all the rest.
+    /// them all, but for the rows. The GUID in it takes longer than all the rest.
     fn title(&self) -> &str {
         self.title.get_or_init(|| {
-            let (layout, guid) = (fnv1a(self.layout().as_bytes()), Identity::<M>::of(self.unit.structure).guid());
+            let (layout, guid) = (fnv1a(self.layout().as_bytes()), self.unit.unset().guid());
             format!("{PREFIX}layout {layout:016x}, {} {} {guid}\n", M::IDENTIFIER, env!("CARGO_PKG_VERSION"))
         })
     }
@@ -144,7 +145,11 @@ impl<M: Model> Instance<M> {
         let of = |structure: &M::Structure| theirs.guid == Identity::<M>::of(*structure).guid().to_string();
         match others.into_iter().find(of) {
             Some(structure) => format!("a state of {structure}, but this is {}", self.unit.structure),
-            None => "a state that another version of this unit wrote".to_owned(),
+            None if M::ROWS.is_empty() || theirs.guid == ours.guid => {
+                "a state that another version of this unit wrote".to_owned()
+            }
+            None if of(&self.unit.structure) => format!("a state of a unit without {}, but this has its own", M::ROWS),
+            None => format!("a state that another version of this unit wrote, or a unit with another {}", M::ROWS),
         }
     }
 

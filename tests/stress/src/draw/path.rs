@@ -64,7 +64,8 @@ pub fn draw(draw: &mut Draw, structure: Structure, p: &mut Parameters, duration:
     if p.ik.path_axes == PathAxes::Horizontal {
         reference.legs.iter_mut().for_each(|leg| leg.dy = 0.0);
     }
-    let external = external.then(|| External { path: *reference, jumps: jumps(draw, reach, moving, rest > 0.0) });
+    let external =
+        external.then(|| External { path: reference.clone(), jumps: jumps(draw, reach, moving, rest > 0.0) });
     if external.is_some() {
         reference.kind = ReferenceKind::External;
     } else if reference.kind != ReferenceKind::Circle {
