@@ -6,6 +6,7 @@ python examples/scenario.py out/4.3c-minimum-norm.toml [FOLDER]
 The folder holds the FMUs of the scenario's structure; default: out.
 """
 
+import struct
 import sys
 import tomllib
 import zipfile
@@ -31,6 +32,17 @@ class UnsuitableError(Exception):
     """The FMUs would run something else than the scenario."""
 
 
+def rows(scenario: dict) -> list[list[int]]:
+    """The path of a scenario, each row the bits of its numbers as whole numbers."""
+    try:
+        return [
+            [int.from_bytes(struct.pack(">d", number)) for number in row]
+            for row in scenario.get("path", [])
+        ]
+    except struct.error:
+        raise UnsuitableError("the path must be rows of numbers, as `show` writes them") from None
+
+
 def check(scenario: dict, folder: Path) -> None:
     """Whether the FMUs in the folder are those of the scenario's structure, and all else is set."""
     structure, parameters = scenario["structure"], names(scenario.get("parameters", {}))
@@ -50,7 +62,14 @@ def check(scenario: dict, folder: Path) -> None:
         with zipfile.ZipFile(fmu) as archive:
             own = "resources/start.toml"
             starts = tomllib.loads(archive.read(own).decode()) if own in archive.namelist() else {}
-        left = starts.keys() - {"structure", "naming"} - parameters.keys()
+        # A path is a table inside the controller, each row the bits of its numbers.
+        path = [row for name, row in starts.items() if name.startswith("path[")]
+        if "uam_controller" in fmu.name and path != rows(scenario):
+            raise UnsuitableError(
+                f"{fmu} has not the path of the scenario: `build --scenario` packs it into FMUs"
+            )
+        left = {name for name in starts if not name.startswith("path[")}
+        left -= {"structure", "naming", *parameters}
         if left:
             raise UnsuitableError(
                 f"{fmu} has start values of its own that the scenario does not set:"
