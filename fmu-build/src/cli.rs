@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use clap::{Args, Parser, Subcommand};
+use clap::error::ErrorKind;
+use clap::{Args, CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 use fmu_build::compile::cross::TARGETS;
 use fmu_build::study::claims::DISCRETIZATIONS;
@@ -45,13 +46,39 @@ pub struct Arguments {
     /// What to do instead
     #[command(subcommand)]
     pub command: Option<Command>,
-    /// Folder for all files that are written; created if it is missing
-    #[arg(long, global = true, value_name = "FOLDER", default_value = "out")]
-    pub out: PathBuf,
+    /// Folder for all files that are written; created if it is missing [default: out]
+    #[arg(long, value_name = "FOLDER")]
+    pub out: Option<PathBuf>,
     /// Print results only: no progress, no times, no list of what was written
     #[arg(long, short, global = true)]
     pub quiet: bool,
 }
+
+impl Arguments {
+    /// Reads the command line.
+    ///
+    /// # Errors
+    /// If it is not understood, or asks for help or the version.
+    pub fn read() -> Result<Self, clap::Error> {
+        let arguments = Self::try_parse()?;
+        if arguments.command.is_some() && arguments.out.is_some() {
+            let advice = "`--out` stands after the command that writes: `uam simulate 4.3a --out FOLDER`";
+            return Err(Self::command().error(ErrorKind::ArgumentConflict, advice));
+        }
+        Ok(arguments)
+    }
+}
+
+/// Where to write.
+#[derive(Debug, Args)]
+pub struct OutArguments {
+    /// Folder for all files that are written; created if it is missing
+    #[arg(long, value_name = "FOLDER", default_value = OUT)]
+    pub out: PathBuf,
+}
+
+/// The folder for files, unless another one is named.
+pub const OUT: &str = "out";
 
 /// What the program can do.
 #[derive(Debug, Subcommand)]
@@ -64,8 +91,8 @@ pub enum Command {
     /// Run one simulation and write its csv and its report
     ///
     /// Couples FMUs of the simulation's structure with a fixed-step master, and writes <SCENARIO>.csv with every
-    /// communication point, <SCENARIO>.json with units, parameters and scenario, and <SCENARIO>.html with figures. The FMUs are built for this run; those in the folder stay as
-    /// they are.
+    /// communication point, <SCENARIO>.json with units, parameters and scenario, and <SCENARIO>.html with figures. The FMUs
+    /// are built for this run; those in the folder stay as they are.
     Simulate(SimulateArguments),
     /// Run every simulation of the thesis and print what it says beside what comes out
     ///
@@ -87,7 +114,7 @@ pub enum Command {
     /// Runs the pick-up with steps from 0.1 ms to 50 ms, both discretizations and holds, three orders in which a
     /// master may step the units, and autopilots that are continuous or sampled. Prints the largest errors of the end
     /// effector and of the predicted base with the observed orders, and writes budget.html with figures.
-    Budget(PrintArguments),
+    Budget(BudgetArguments),
     /// Write a scenario file for a vehicle of your own
     ///
     /// Every value has its unit in a comment. The vehicle has no payload, starts level, and runs with `simulate` at once.
@@ -175,6 +202,9 @@ pub struct BuildArguments {
     /// All platforms for which this machine has the tools
     #[arg(long, conflicts_with = "platforms")]
     pub all_platforms: bool,
+    /// Where to write
+    #[command(flatten)]
+    pub to: OutArguments,
     /// A folder of this project's sources to compile the libraries from
     ///
     /// The program holds the libraries for its own platform. Those for other platforms are compiled, by cargo, from the
@@ -224,6 +254,9 @@ pub struct SimulateArguments {
     /// Write every output of both units to the csv, not only those in the report
     #[arg(long)]
     pub all_outputs: bool,
+    /// Where to write
+    #[command(flatten)]
+    pub to: OutArguments,
 }
 
 /// How to print what came out.
@@ -262,6 +295,20 @@ pub struct ReachArguments {
     /// How to print what came out
     #[command(flatten)]
     pub print: PrintArguments,
+    /// Where to write
+    #[command(flatten)]
+    pub to: OutArguments,
+}
+
+/// How to print what came out, and where to write.
+#[derive(Debug, Args)]
+pub struct BudgetArguments {
+    /// How to print what came out
+    #[command(flatten)]
+    pub print: PrintArguments,
+    /// Where to write
+    #[command(flatten)]
+    pub to: OutArguments,
 }
 
 /// A name and the values that it takes one after the other.
@@ -301,6 +348,9 @@ pub struct ShowArguments {
 pub struct ExportArguments {
     /// Name of the simulation as in `list`, or a TOML file
     pub scenario: String,
+    /// Where to write
+    #[command(flatten)]
+    pub to: OutArguments,
 }
 
 /// Which shell.
@@ -344,8 +394,6 @@ fn discretizations() -> impl TypedValueParser<Value = Discretization> {
 
 #[cfg(test)]
 mod tests {
-    use clap::CommandFactory;
-
     use super::*;
 
     fn refusal(line: &str) -> String {

@@ -15,7 +15,7 @@ use uam::Structure;
 use uam::reference::PathTable;
 use uam::scenarios::{self, Extent, Scenario};
 
-use crate::cli::{Arguments, Command};
+use crate::cli::{Arguments, Command, OUT};
 use crate::terminal::{is_quiet, say, wrote};
 
 mod budget;
@@ -32,15 +32,14 @@ mod vary;
 
 /// Does what the command line asks for.
 pub fn execute(arguments: &Arguments) -> Result<()> {
-    let out = &arguments.out;
     match &arguments.command {
-        None => pick_up::execute(out),
-        Some(Command::Build(arguments)) => build::execute(arguments, out),
-        Some(Command::Simulate(simulation)) => simulate::execute(simulation, out),
+        None => pick_up::execute(arguments.out.as_deref().unwrap_or(Path::new(OUT))),
+        Some(Command::Build(arguments)) => build::execute(arguments, &arguments.to.out),
+        Some(Command::Simulate(simulation)) => simulate::execute(simulation, &simulation.to.out),
         Some(Command::Thesis(arguments)) => thesis::execute(arguments),
         Some(Command::Vary(arguments)) => vary::execute(arguments),
-        Some(Command::Reach(arguments)) => reach::execute(arguments, out),
-        Some(Command::Budget(arguments)) => budget::execute(arguments, out),
+        Some(Command::Reach(arguments)) => reach::execute(arguments, &arguments.to.out),
+        Some(Command::Budget(arguments)) => budget::execute(&arguments.print, &arguments.to.out),
         Some(Command::Init(arguments)) => init::execute(arguments),
         Some(Command::Check(arguments)) => check::execute(&arguments.scenario),
         Some(Command::List) => scenarios::catalogue()?
@@ -50,7 +49,7 @@ pub fn execute(arguments: &Arguments) -> Result<()> {
             let extent = if show.all { Extent::Everything } else { Extent::Changes };
             say(scenario(&show.scenario)?.write(extent).trim_end())
         }
-        Some(Command::Export(export)) => export::execute(&export.scenario, out),
+        Some(Command::Export(export)) => export::execute(&export.scenario, &export.to.out),
         Some(Command::Completions(arguments)) => completions::execute(arguments.shell),
         Some(Command::Describe) => wrote(&fmu_build::write_descriptions(&workspace::root()?.join("modelDescription"))?),
     }

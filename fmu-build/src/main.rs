@@ -6,8 +6,6 @@
 use std::io::{self, ErrorKind, Write};
 use std::process::ExitCode;
 
-use clap::Parser;
-
 mod cli;
 mod commands;
 mod terminal;
@@ -16,7 +14,7 @@ mod terminal;
 const USAGE: u8 = 2;
 
 fn main() -> ExitCode {
-    let arguments = match cli::Arguments::try_parse() {
+    let arguments = match cli::Arguments::read() {
         Ok(arguments) => arguments,
         Err(refusal) if refusal.use_stderr() => {
             // If it cannot be printed, there is nobody to tell.

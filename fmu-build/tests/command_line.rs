@@ -256,6 +256,19 @@ fn check_finds_nothing_in_the_pick_up() {
     assert!(said.contains("Nobody holds the horizontal position"), "{said}");
 }
 
+/// Where nothing is written, a folder for it is a mistake; and it is not to be lost before a command.
+#[test]
+fn a_folder_is_taken_by_commands_that_write() {
+    for arguments in
+        [&["list", "--out", "there"][..], &["thesis", "--out", "there"], &["show", "4.3b", "--out", "there"]]
+    {
+        let (code, _, error) = answer(arguments);
+        assert!(code == Some(2) && error.contains("unexpected argument '--out'"), "{arguments:?}: {error}");
+    }
+    let (code, _, error) = answer(&["--out", "there", "export", "4.3a"]);
+    assert!(code == Some(2) && error.contains("stands after the command"), "{error}");
+}
+
 #[test]
 fn help_teaches_with_examples() {
     let (code, help, _) = answer(&["--help"]);

@@ -28,7 +28,8 @@ Numbers = Callable[[], list[float]]
 @cache
 def printed(*arguments: str) -> str:
     """What the project's program prints; the files that it writes besides go where nobody looks."""
-    return program(*arguments, "--out", str(OUT))
+    prints_only = arguments[:1] in (("thesis",), ("vary",))
+    return program(*arguments, *(() if prints_only else ("--out", str(OUT))))
 
 
 def command(*arguments: str) -> Callable[[], str]:

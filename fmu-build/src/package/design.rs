@@ -19,7 +19,7 @@ pub struct Design {
     pub parameters: Parameters,
     /// What importers propose to simulate.
     pub experiment: Experiment,
-    /// Whether the FMUs say which variables belong together, see [`crate::package::terminals`].
+    /// Whether the FMUs say which variables belong together, in `terminalsAndIcons.xml`.
     pub terminals: bool,
 }
 

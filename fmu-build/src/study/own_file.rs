@@ -32,8 +32,9 @@ const GROUPS: [(&str, &[&str]); 8] = [
         ],
     ),
     (
-        "The path of the hand, from where it starts: legs that add up. A duration of 0 is no leg.",
-        &["reference.kind", "reference.leg["],
+        "The path of the hand, from where it starts: legs that add up. A duration of 0 is no leg. A table may take their\n\
+         # place: `path` above.",
+        &["reference.leg["],
     ),
     (
         "No payload: set its mass and when it is grasped to have one, at a negative time if the hand holds it from the start.\n\
@@ -50,13 +51,15 @@ pub fn text(scenario: &Scenario, file: &str) -> String {
     let (links, balance) = (structure.links, structure.balance.name());
     let mut text = format!(
         "\
-# {title}. SI units, angles in radians.
+# {title}.
+# SI units, angles in radians; a number may stand with its unit, in quotes: \"30 deg\", \"5 cm\".
 #   check {file}       says whether it is balanced and stable, and what looks like a mistake
 #   simulate {file}    runs it
 id = \"{id}\"
 title = \"{title}\"
 duration = {duration:?} # of the simulation [s]
 step = {step:?} # between two communication points [s]
+# path = \"path.csv\" # a table beside this file: time,x,y or time,x,y,vx,vy [s, m, m/s], named so in its first line
 
 [structure]
 links = {links} # revolute, 1 to 6
