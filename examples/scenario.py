@@ -1,6 +1,6 @@
 """Runs a scenario file on both FMUs with FMPy.
 
-cargo run --release -- export 4.3c-minimum-norm     writes out/4.3c-minimum-norm.toml
+uam export 4.3c-minimum-norm                         writes out/4.3c-minimum-norm.toml
 python examples/scenario.py out/4.3c-minimum-norm.toml [FOLDER]
 
 The folder holds the FMUs of the scenario's structure; default: out.

@@ -4,29 +4,35 @@ use std::path::PathBuf;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
+use clap_complete::Shell;
 use fmu_build::compile::cross::TARGETS;
 use fmu_build::study::claims::DISCRETIZATIONS;
 use uam::Structure;
 use uam::parameters::{Balance, Discretization, MAX_LINKS};
 use uam::variables::options::Choice;
 
+use crate::commands::check::CheckArguments;
+use crate::commands::init::InitArguments;
+
 const EXAMPLES: &str = "\
 Examples:
-  fmu-build                                 build, run the pick-up of thesis 4.3, write out/report.html
-  fmu-build build --links 2                 FMUs of a vehicle with two links
-  fmu-build build --scenario mine.toml      FMUs that start with the numbers of your own vehicle
-  fmu-build thesis                          every statement of the thesis beside what comes out
-  fmu-build reach                           how far the arm reaches with a counterweight
-  fmu-build budget                          which communication step for which error
-  fmu-build vary 3.7 pace=1,1.2,1.5         the same motion, faster
-  fmu-build list                            the simulations that `simulate` knows
-  fmu-build simulate 4.3a                   one simulation, with its own report
-  fmu-build simulate 4.3b --step 0.01 --stop 10 --discretization euler
-  fmu-build show 4.3b > mine.toml           a file to start your own simulation from
-  fmu-build simulate mine.toml              your own simulation
-  fmu-build export 4.2a                     parameter sets for other hosts
+  uam                                 build, run the pick-up of thesis 4.3, write out/report.html
+  uam build --links 2                 FMUs of a vehicle with two links
+  uam build --scenario mine.toml      FMUs that start with the numbers of your own vehicle
+  uam thesis                          every statement of the thesis beside what comes out
+  uam reach                           how far the arm reaches with a counterweight
+  uam budget                          which communication step for which error
+  uam vary 3.7 pace=1,1.2,1.5         the same motion, faster
+  uam list                            the simulations that `simulate` knows
+  uam simulate 4.3a                   one simulation, with its own report
+  uam simulate 4.3b --step 0.01 --stop 10 --discretization euler
+  uam init mine.toml --links 2        a vehicle of your own, level and without payload
+  uam check mine.toml                 what in it looks like a mistake
+  uam show 4.3b > mine.toml           a file to start your own simulation from
+  uam simulate mine.toml              your own simulation
+  uam export 4.2a                     parameter sets for other hosts
 
-From the sources, `cargo run --release --` stands for `fmu-build`.";
+Without installing it: `cargo run --release --` stands for `uam` in the folder of the sources.";
 
 /// Two FMI 2.0 co-simulation units of an aerial manipulator: builds them, couples them, shows what happens
 ///
@@ -34,7 +40,7 @@ From the sources, `cargo run --release --` stands for `fmu-build`.";
 /// their C interface, couples them on the payload pick-up of thesis section 4.3, prints what the thesis
 /// says beside what came out, and writes pick-up.csv and report.html.
 #[derive(Debug, Parser)]
-#[command(name = "fmu-build", version, after_help = EXAMPLES)]
+#[command(name = "uam", version, after_help = EXAMPLES)]
 pub struct Arguments {
     /// What to do instead
     #[command(subcommand)]
@@ -42,6 +48,9 @@ pub struct Arguments {
     /// Folder for all files that are written; created if it is missing
     #[arg(long, global = true, value_name = "FOLDER", default_value = "out")]
     pub out: PathBuf,
+    /// Print results only: no progress, no times, no list of what was written
+    #[arg(long, short, global = true)]
+    pub quiet: bool,
 }
 
 /// What the program can do.
@@ -55,7 +64,7 @@ pub enum Command {
     /// Run one simulation and write its csv and its report
     ///
     /// Couples FMUs of the simulation's structure with a fixed-step master, and writes <SCENARIO>.csv with every
-    /// communication point and <SCENARIO>.html with figures. The FMUs are built for this run; those in the folder stay as
+    /// communication point, <SCENARIO>.json with units, parameters and scenario, and <SCENARIO>.html with figures. The FMUs are built for this run; those in the folder stay as
     /// they are.
     Simulate(SimulateArguments),
     /// Run every simulation of the thesis and print what it says beside what comes out
@@ -79,6 +88,16 @@ pub enum Command {
     /// master may step the units, and autopilots that are continuous or sampled. Prints the largest errors of the end
     /// effector and of the predicted base with the observed orders, and writes budget.html with figures.
     Budget(PrintArguments),
+    /// Write a scenario file for a vehicle of your own
+    ///
+    /// Every value has its unit in a comment. The vehicle has no payload, starts level, and runs with `simulate` at once.
+    Init(InitArguments),
+    /// Say of a simulation, before it runs, what looks like a mistake
+    ///
+    /// A verdict, then each mistake with the parameter to change and its value, then the numbers behind it: balance at
+    /// the start, distance from singular, stability of the hover, what the path asks for. The exit code is 0 if
+    /// nothing looks wrong, else 1.
+    Check(CheckArguments),
     /// List the simulations that `simulate` knows, one per line
     List,
     /// Print a simulation as a TOML file, to be changed and given to `simulate`
@@ -93,21 +112,26 @@ pub enum Command {
     /// <ID>.plant.ssv, parameter sets by the SSP standard. They hold the parameters that differ from the start
     /// values in the FMUs of the simulation's structure.
     Export(ExportArguments),
+    /// Print a script that lets a shell complete commands and options
+    ///
+    /// For instance, once: uam completions bash > ~/.local/share/bash-completion/completions/uam
+    Completions(CompletionsArguments),
     /// Write the model descriptions that are under version control anew
     ///
     /// To be called after variables have changed: modelDescription/uam_controller.xml and uam_plant.xml
     /// belong to the FMUs of the default vehicle, and a test compares them.
+    #[command(hide = true)]
     Describe,
 }
 
 const BUILD_EXAMPLES: &str = "\
 Examples:
-  fmu-build build                              the vehicle of thesis 4.3, for this machine
-  fmu-build build --links 2 --counterweight    variables of two links and a counterweight
-  fmu-build build --scenario 4.4b --out there  what thesis 4.4 does, in any host that sets nothing
-  fmu-build build --platforms linux64,win64,darwin64
+  uam build                              the vehicle of thesis 4.3, for this machine
+  uam build --links 2 --counterweight    variables of two links and a counterweight
+  uam build --scenario 4.4b --out there  what thesis 4.4 does, in any host that sets nothing
+  uam build --platforms linux64,win64,darwin64 --sources FOLDER
 
-What the platforms need beside Rust:
+What other platforms need beside Rust and the sources of this project:
   linux64        cargo-zigbuild and Zig: pip install cargo-zigbuild ziglang
   win64          mingw-w64, and: rustup target add x86_64-pc-windows-gnu
   darwin64       as linux64, and: rustup target add x86_64-apple-darwin aarch64-apple-darwin
@@ -151,6 +175,12 @@ pub struct BuildArguments {
     /// All platforms for which this machine has the tools
     #[arg(long, conflicts_with = "platforms")]
     pub all_platforms: bool,
+    /// A folder of this project's sources to compile the libraries from
+    ///
+    /// The program holds the libraries for its own platform. Those for other platforms are compiled, by cargo, from the
+    /// sources around the current folder if none are named. If they are named, all are compiled from them.
+    #[arg(long, value_name = "FOLDER")]
+    pub sources: Option<PathBuf>,
 }
 
 impl BuildArguments {
@@ -273,6 +303,13 @@ pub struct ExportArguments {
     pub scenario: String,
 }
 
+/// Which shell.
+#[derive(Debug, Args)]
+pub struct CompletionsArguments {
+    /// The shell
+    pub shell: Shell,
+}
+
 fn change(text: &str) -> Result<Change, String> {
     let (name, values) =
         text.split_once('=').ok_or("a name and its values are needed, for instance step=0.001,0.01")?;
@@ -282,7 +319,11 @@ fn change(text: &str) -> Result<Change, String> {
     })
 }
 
-fn links(text: &str) -> Result<usize, String> {
+/// The number of links that a text stands for.
+///
+/// # Errors
+/// If no arm has as many.
+pub fn links(text: &str) -> Result<usize, String> {
     let number: usize = text.parse().map_err(|_| format!("an arm has 1 to {MAX_LINKS} links"))?;
     Structure::new(number, Balance::None).map(|structure| structure.links).map_err(|error| error.to_string())
 }
@@ -319,17 +360,17 @@ mod tests {
     #[test]
     fn refusals_say_what_is_allowed() {
         for number in ["0", "7", "-1", "two", "2.5"] {
-            assert!(refusal(&format!("fmu-build build --links {number}")).contains("1 to 6"));
+            assert!(refusal(&format!("uam build --links {number}")).contains("1 to 6"));
         }
-        assert!(refusal("fmu-build build --counterweight --balance-element").contains("cannot be used with"));
-        assert!(refusal("fmu-build simulate 4.3a --discretization rk4").contains("euler, exact"));
-        assert!(refusal("fmu-build simulate 4.3a --step soon").contains("for instance 0.001"));
+        assert!(refusal("uam build --counterweight --balance-element").contains("cannot be used with"));
+        assert!(refusal("uam simulate 4.3a --discretization rk4").contains("euler, exact"));
+        assert!(refusal("uam simulate 4.3a --step soon").contains("for instance 0.001"));
     }
 
     #[test]
     fn numbers_that_make_no_sense_reach_the_schedule() {
         for (text, expected) in [("-0.001", -0.001), ("0", 0.0), ("inf", f64::INFINITY)] {
-            let line = format!("fmu-build simulate 4.3a --step {text}");
+            let line = format!("uam simulate 4.3a --step {text}");
             let Some(Command::Simulate(arguments)) = Arguments::try_parse_from(line.split(' ')).unwrap().command else {
                 panic!("not simulate");
             };

@@ -10,17 +10,20 @@ use fmu_build::host::run::Run;
 use fmu_build::study::Summary;
 use fmu_build::study::claims::DISCRETIZATIONS;
 use fmu_build::{BuildOptions, Built, Design, workspace};
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use uam::Structure;
 use uam::reference::PathTable;
 use uam::scenarios::{self, Extent, Scenario};
 
 use crate::cli::{Arguments, Command};
-use crate::terminal::{say, wrote};
+use crate::terminal::{is_quiet, say, wrote};
 
 mod budget;
 mod build;
+pub mod check;
+mod completions;
 mod export;
+pub mod init;
 mod pick_up;
 mod reach;
 mod simulate;
@@ -38,6 +41,8 @@ pub fn execute(arguments: &Arguments) -> Result<()> {
         Some(Command::Vary(arguments)) => vary::execute(arguments),
         Some(Command::Reach(arguments)) => reach::execute(arguments, out),
         Some(Command::Budget(arguments)) => budget::execute(arguments, out),
+        Some(Command::Init(arguments)) => init::execute(arguments),
+        Some(Command::Check(arguments)) => check::execute(&arguments.scenario),
         Some(Command::List) => scenarios::catalogue()?
             .iter()
             .try_for_each(|scenario| say(format_args!("{:<24} {}", scenario.id, scenario.title))),
@@ -46,6 +51,7 @@ pub fn execute(arguments: &Arguments) -> Result<()> {
             say(scenario(&show.scenario)?.write(extent).trim_end())
         }
         Some(Command::Export(export)) => export::execute(&export.scenario, out),
+        Some(Command::Completions(arguments)) => completions::execute(arguments.shell),
         Some(Command::Describe) => wrote(&fmu_build::write_descriptions(&workspace::root()?.join("modelDescription"))?),
     }
 }
@@ -65,9 +71,17 @@ fn scenario(name_or_file: &str) -> Result<Scenario> {
     Scenario::read_with(&text, &beside).with_context(|| name_or_file.to_owned())
 }
 
+/// A display of progress, for those who want to see it.
+fn shown(bar: ProgressBar) -> ProgressBar {
+    if is_quiet() {
+        bar.set_draw_target(ProgressDrawTarget::hidden());
+    }
+    bar
+}
+
 /// Builds FMUs and says on the terminal how far it is.
 fn build_files(options: &BuildOptions) -> Result<Built> {
-    let spinner = ProgressBar::new_spinner();
+    let spinner = shown(ProgressBar::new_spinner());
     spinner.enable_steady_tick(std::time::Duration::from_millis(120));
     let built = fmu_build::build(options, &|line| spinner.set_message(line.to_owned()));
     spinner.finish_and_clear();
@@ -135,7 +149,8 @@ impl Progress {
 
     fn new(points: u64, what: &'static str) -> Result<Self> {
         let style = ProgressStyle::with_template("{msg} [{bar:40}] {percent:>3} % in {elapsed}")?.progress_chars("=> ");
-        Ok(Self { bar: ProgressBar::new(points).with_style(style).with_message(what), points: AtomicU64::new(0) })
+        let bar = shown(ProgressBar::new(points).with_style(style).with_message(what));
+        Ok(Self { bar, points: AtomicU64::new(0) })
     }
 
     /// Of all points of scenarios that run with each discretization.

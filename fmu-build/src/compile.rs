@@ -1,26 +1,21 @@
-//! The units' shared libraries, compiled by a nested cargo.
+//! The units' shared libraries: from inside the program, or compiled by a nested cargo.
 
 pub mod cross;
 mod universal;
 
 use std::env;
 use std::ffi::{OsStr, OsString};
-use std::fs;
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::thread;
 
 use cargo_metadata::Message;
+use unit_libraries::nested::{self, FLAG_SEPARATOR};
 
 use crate::error::{Error, Result};
-use crate::files;
+use crate::{files, workspace};
 use cross::{Target, Toolchain};
-
-/// Profile in the workspace's `Cargo.toml` for what goes into an FMU.
-const PROFILE: &str = "fmu";
-/// Separates the flags in `CARGO_ENCODED_RUSTFLAGS`.
-const FLAG_SEPARATOR: &str = "\u{1f}";
 
 /// What came out of a compilation.
 #[derive(Debug)]
@@ -28,6 +23,28 @@ pub struct Compiled {
     toolchain: Toolchain,
     /// What cargo says for programs: one JSON object per line.
     messages: Vec<u8>,
+}
+
+/// The libraries of units, in their order.
+///
+/// Those for this machine are inside the program, if it is a release build. Others are compiled from the sources that
+/// are named, or else from those around the current folder; if sources are named, all are.
+///
+/// # Errors
+/// If sources are needed and not found, or do not compile.
+pub fn libraries(
+    units: &[&str],
+    toolchain: Toolchain,
+    sources: Option<&Path>,
+    progress: &dyn Fn(&str),
+) -> Result<Vec<Vec<u8>>> {
+    if (toolchain, sources) == (Toolchain::Own, None)
+        && let Some(held) = units.iter().map(|unit| unit_libraries::held(unit).map(Vec::from)).collect()
+    {
+        return Ok(held);
+    }
+    let compiled = compile(&workspace::find(sources)?, units, toolchain, progress)?;
+    units.iter().map(|unit| compiled.library(unit)).collect()
 }
 
 /// Compiles packages of the workspace; `progress` is told what cargo is doing, line by line.
@@ -81,18 +98,15 @@ impl Compiled {
 }
 
 fn cargo(workspace: &Path, packages: &[&str], toolchain: Toolchain) -> Result<Command> {
-    let mut command = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    let program = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let subcommand = match toolchain {
+        Toolchain::Own => "build",
+        Toolchain::Cross(target) => target.subcommand(),
+    };
+    let flags = nested::flags(workspace, &sysroot(workspace)?, given_flags());
+    let mut command = nested::cargo(program, subcommand, workspace, packages, &target_folder(workspace), flags);
     command
-        .current_dir(workspace)
-        .arg(match toolchain {
-            Toolchain::Own => "build",
-            Toolchain::Cross(target) => target.subcommand(),
-        })
-        .args(["--locked", "--profile", PROFILE, "--message-format", "json-render-diagnostics"])
-        .args(packages.iter().flat_map(|package| ["--package", package]))
-        .arg("--target-dir")
-        .arg(target_folder(workspace))
-        .env("CARGO_ENCODED_RUSTFLAGS", flags(workspace)?)
+        .args(["--message-format", "json-render-diagnostics"])
         .env("CARGO_TERM_COLOR", "never")
         .env("CARGO_TERM_PROGRESS_WHEN", "never")
         .stdin(Stdio::null())
@@ -112,56 +126,21 @@ pub fn target_libraries(triple: &str) -> Option<PathBuf> {
     output.status.success().then(|| PathBuf::from(String::from_utf8_lossy(&output.stdout).trim_end()))
 }
 
-/// A target folder of its own: the cargo that may be running this program holds the lock of the usual one.
+/// A target folder of its own, below the usual one.
 fn target_folder(workspace: &Path) -> PathBuf {
     let usual = env::var_os("CARGO_TARGET_DIR")
         .map(PathBuf::from)
         .and_then(|folder| std::path::absolute(folder).ok())
         .unwrap_or_else(|| workspace.join("target"));
-    usual.join("fmu")
+    usual.join(nested::FOLDER)
 }
 
-/// The caller's compiler flags, and those that keep the building machine's paths out of
-/// the libraries.
-fn flags(workspace: &Path) -> Result<OsString> {
-    let mut flags = given_flags();
-    // Where several prefixes fit, the last one counts: a cargo home inside the workspace keeps its own name.
-    let mut prefixes = vec![(workspace.to_owned(), "/uam")];
-    if let Some(home) = cargo_home() {
-        let registries = registries(&home);
-        prefixes.push((home, "/cargo"));
-        prefixes.extend(registries.into_iter().map(|registry| (registry, "/cargo")));
-    }
-    prefixes.push((sysroot(workspace)?.join("lib/rustlib/src/rust"), "/rust"));
-    for (prefix, name) in prefixes {
-        if !flags.is_empty() {
-            flags.push(FLAG_SEPARATOR);
-        }
-        flags.push("--remap-path-prefix=");
-        flags.push(prefix);
-        flags.push("=");
-        flags.push(name);
-    }
-    Ok(flags)
-}
-
+/// The caller's compiler flags.
 fn given_flags() -> OsString {
     env::var_os("CARGO_ENCODED_RUSTFLAGS").unwrap_or_else(|| {
         let flags = env::var("RUSTFLAGS").unwrap_or_default();
         flags.split_whitespace().collect::<Vec<_>>().join(FLAG_SEPARATOR).into()
     })
-}
-
-fn cargo_home() -> Option<PathBuf> {
-    env::var_os("CARGO_HOME").map(PathBuf::from).or_else(|| env::home_dir().map(|home| home.join(".cargo")))
-}
-
-/// Where cargo unpacks packages: a folder for each registry, so that a mirror gives it another name.
-fn registries(home: &Path) -> Vec<PathBuf> {
-    let folders = fs::read_dir(home.join("registry/src")).into_iter().flatten().flatten();
-    let mut folders: Vec<_> = folders.map(|entry| entry.path()).collect();
-    folders.sort();
-    folders
 }
 
 fn sysroot(workspace: &Path) -> Result<PathBuf> {

@@ -11,13 +11,26 @@ pub type Result<T> = std::result::Result<T, Error>;
 pub enum Error {
     /// The sources of the units are not where the program looks.
     #[error(
-        "the sources of the units were not found: neither {} nor a folder above holds fmu-build/plant/Cargo.toml; \
-         run this inside the project's folder",
+        "what is not inside the program is compiled from the project's sources, and these were not found: neither {} \
+         nor a folder above holds fmu-build/plant/Cargo.toml; run this inside the project's folder, or name that \
+         folder with `build --sources`",
         list(searched)
     )]
     NoWorkspace {
         /// Where the search upwards began.
         searched: Vec<PathBuf>,
+    },
+    /// Sources of another version than the program: what it says of variables would not fit the libraries.
+    #[error(
+        "the sources in {} are not those of this program: {file} says otherwise there; \
+         install the program from these sources (cargo install --locked --path fmu-build), or name its own",
+        sources.display()
+    )]
+    OtherSources {
+        /// Where they are.
+        sources: PathBuf,
+        /// The file that differs.
+        file: String,
     },
     /// Start values with which no simulation can begin.
     #[error(transparent)]

@@ -4,10 +4,10 @@
 //!
 //! ```text
 //! error, files, workspace, platform, formats     what all others need
-//! compile    libraries out of sources, for this machine and others
+//! compile    the units' libraries: for this machine from inside the program, for others out of sources
 //! package    FMUs and SSPs: descriptions, pages, archives
 //! host       FMUs loaded, coupled, run and recorded
-//! study      many runs: beside the thesis, with other numbers, with other steps
+//! study      many runs: beside the thesis, with other numbers, with other steps; vehicles before they run
 //! report     what came out, as a page
 //! ```
 //!

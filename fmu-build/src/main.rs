@@ -1,4 +1,4 @@
-//! The program behind `cargo run`: builds both FMUs, couples them, and shows what happened.
+//! The program `uam`: builds both FMUs, couples them, and shows what happened.
 
 // They panic where nothing can be written.
 #![deny(clippy::print_stdout, clippy::print_stderr)]
@@ -12,17 +12,23 @@ mod cli;
 mod commands;
 mod terminal;
 
+/// What the program answers to a command line that it does not understand, as other programs do.
+const USAGE: u8 = 2;
+
 fn main() -> ExitCode {
     let arguments = match cli::Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(refusal) if refusal.use_stderr() => {
             // If it cannot be printed, there is nobody to tell.
             let _ = refusal.print();
-            return ExitCode::FAILURE;
+            return ExitCode::from(USAGE);
         }
         // Help and version are answers, not mistakes.
-        Err(answer) => return exit(terminal::say(answer.render().ansi().to_string().trim_end())),
+        Err(answer) => return exit(terminal::say_styled(&answer.render())),
     };
+    if arguments.quiet {
+        terminal::be_quiet();
+    }
     exit(commands::execute(&arguments))
 }
 

@@ -23,8 +23,9 @@ use crate::files::{self, Written};
 use crate::formats::html::document;
 use crate::host::record::NotRecorded;
 use crate::host::run::Run;
+use crate::package::metadata::GENERATION_TOOL;
 use crate::study::claims::Table;
-use crate::study::verdict::Verdict;
+use crate::study::particulars;
 
 /// A report that cannot be made.
 #[derive(Debug, thiserror::Error)]
@@ -68,6 +69,8 @@ pub struct Report {
     pub table: Table,
     /// Figures in their order.
     pub figures: Vec<Figure>,
+    /// What stands at the end.
+    pub appendix: Markup,
 }
 
 impl Report {
@@ -83,6 +86,7 @@ impl Report {
                     // The picture of what happens comes first.
                     @if i == 0 { section { h2 { "What came out" } (table(&self.table)) } }
                 }
+                (self.appendix)
             },
         )
     }
@@ -102,11 +106,17 @@ fn page(title: &str, content: &Markup) -> String {
 }
 
 /// What became of a run: it stands first.
-fn verdict(verdict: &Verdict) -> Markup {
+fn verdict(sentences: &[String]) -> Markup {
+    let (sentence, doubts) = sentences.split_first().map_or((None, sentences), |(first, rest)| (Some(first), rest));
     html! {
-        p { strong { (verdict.sentence) } }
-        @if !verdict.doubts.is_empty() { ul { @for doubt in &verdict.doubts { li { (doubt) } } } }
+        @if let Some(sentence) = sentence { p { strong { (sentence) } } }
+        @if !doubts.is_empty() { ul { @for doubt in doubts { li { (doubt) } } } }
     }
+}
+
+/// Which program made a page, and when.
+fn made_by() -> Markup {
+    html! { p { "Made by " (GENERATION_TOOL) " on " (particulars::today()) "." } }
 }
 
 fn table(table: &Table) -> Markup {

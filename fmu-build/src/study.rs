@@ -1,7 +1,11 @@
 //! Scenarios with each discretization, beside what the thesis says; among them the pick-up of 4.3.
 
 pub mod budget;
+pub mod check;
 pub mod claims;
+pub mod own_file;
+pub mod own_vehicle;
+pub mod particulars;
 pub mod reach;
 pub mod variation;
 pub mod verdict;

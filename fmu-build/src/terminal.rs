@@ -1,10 +1,25 @@
 //! What the program says on its standard output.
 
 use std::fmt::Display;
-use std::io::{self, Write};
+use std::io::{self, IsTerminal, Write};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use anyhow::{Context, Result};
+use clap::builder::StyledStr;
 use fmu_build::files::Written;
+
+/// Whether only results are wanted. The user says so once, for all that the program does.
+static IS_QUIET: AtomicBool = AtomicBool::new(false);
+
+/// From now on, only results are said.
+pub fn be_quiet() {
+    IS_QUIET.store(true, Ordering::Relaxed);
+}
+
+/// Whether only results are wanted.
+pub fn is_quiet() -> bool {
+    IS_QUIET.load(Ordering::Relaxed)
+}
 
 /// Writes a line, or several, to the standard output.
 ///
@@ -15,11 +30,28 @@ pub fn say(text: impl Display) -> Result<()> {
     writeln!(out, "{text}").and_then(|()| out.flush()).context("cannot write to the standard output")
 }
 
+/// As [`say`], in bold where that is shown and not written into a file.
+///
+/// # Errors
+/// As [`say`].
+pub fn say_styled(text: &StyledStr) -> Result<()> {
+    let shown = if io::stdout().is_terminal() { text.ansi().to_string() } else { text.to_string() };
+    say(shown.trim_end())
+}
+
+/// Says what is no result: what is being done, and how it went.
+///
+/// # Errors
+/// As [`say`].
+pub fn remark(text: impl Display) -> Result<()> {
+    if is_quiet() { Ok(()) } else { say(text) }
+}
+
 /// Says where files are, and which of them took the place of others.
 ///
 /// # Errors
 /// As [`say`].
 pub fn wrote(files: &[Written]) -> Result<()> {
-    say("Written:")?;
-    files.iter().try_for_each(|file| say(format_args!("  {file}")))
+    remark("Written:")?;
+    files.iter().try_for_each(|file| remark(format_args!("  {file}")))
 }

@@ -145,7 +145,7 @@ fn the_same_sources_give_the_same_bytes_in_another_place() {
     let path = |name: &str| there.path().join(name);
     copy(&workspace::root().unwrap(), &path("a folder with another name"));
     other_cargo_home(&path("cargo"));
-    let run = Command::new(env!("CARGO_BIN_EXE_fmu-build"))
+    let run = Command::new(env!("CARGO_BIN_EXE_uam"))
         .args(["build", "--out"])
         .arg(path("files"))
         .current_dir(path("a folder with another name"))

@@ -7,7 +7,7 @@ use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
 fn run(out: &Path, arguments: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_fmu-build"));
+    let mut command = Command::new(env!("CARGO_BIN_EXE_uam"));
     command.args(arguments).arg("--out").arg(out).output().unwrap()
 }
 
@@ -96,8 +96,9 @@ fn a_title_with_control_characters_is_refused() {
 fn a_standard_output_that_takes_nothing_is_an_error() {
     let folder = tempfile::tempdir().unwrap();
     let simulate = [&["simulate", "4.3a"], &SHORT[..]].concat();
-    let commands: [&[&str]; 9] = [
+    let commands: [&[&str]; 10] = [
         &["list"],
+        &["completions", "bash"],
         &["show", "4.3b"],
         &["show", "--all", "4.3b"],
         &["--help"],
@@ -109,7 +110,7 @@ fn a_standard_output_that_takes_nothing_is_an_error() {
     ];
     for command in commands {
         let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
-        let mut program = Command::new(env!("CARGO_BIN_EXE_fmu-build"));
+        let mut program = Command::new(env!("CARGO_BIN_EXE_uam"));
         let output = program.args(command).arg("--out").arg(folder.path()).stdout(full).output().unwrap();
         let error = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(1), "{command:?}: {error}");
@@ -117,9 +118,9 @@ fn a_standard_output_that_takes_nothing_is_an_error() {
     }
     // Where not even the error can be told, the code does.
     let full = || Stdio::from(fs::OpenOptions::new().write(true).open("/dev/full").unwrap());
-    for command in [["show", "4.3x"], ["fly", "away"], ["show", "4.3a"]] {
-        let mut program = Command::new(env!("CARGO_BIN_EXE_fmu-build"));
+    for (command, code) in [(["show", "4.3x"], 1), (["fly", "away"], 2), (["show", "4.3a"], 1)] {
+        let mut program = Command::new(env!("CARGO_BIN_EXE_uam"));
         let status = program.args(command).stdout(full()).stderr(full()).status().unwrap();
-        assert_eq!(status.code(), Some(1), "{command:?}");
+        assert_eq!(status.code(), Some(code), "{command:?}");
     }
 }

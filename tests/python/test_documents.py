@@ -21,7 +21,7 @@ from documents import Block, MissingError, Part, Quote, Times
 # Tables with numbers that no command prints, by their headings.
 BY_HAND = {
     "| platform | needs beside Rust | runs on | seen |",
-    "| command (after `cargo run --release --`) | what it does |",
+    "| command (after `uam`) | what it does |",
     "| you want | set |",
     "| `ik.resolution` | number | good for | costs | fails |",
     "| | FMI | state / bytes | input / output derivatives | variables' units | source |",

@@ -2,12 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Result, bail};
+use anyhow::{Context, Result, bail};
 use fmu_build::compile::cross::{TARGETS, Target, Toolchain};
 use fmu_build::compile::target_libraries;
 use fmu_build::files::Written;
 use fmu_build::platform::Platform;
-use fmu_build::{BuildOptions, Design};
+use fmu_build::{BuildOptions, Design, workspace};
 use uam::fmi::Naming;
 
 use super::{build_files, scenario};
@@ -18,7 +18,12 @@ pub fn execute(arguments: &BuildArguments, out: &Path) -> Result<()> {
     let design = design(arguments)?;
     let mut files: Vec<Written> = Vec::new();
     for (toolchains, folder) in toolchains(arguments, out)? {
-        let built = build_files(&BuildOptions { design: design.clone(), toolchains, folder })?;
+        let built = build_files(&BuildOptions {
+            design: design.clone(),
+            toolchains,
+            sources: arguments.sources.clone(),
+            folder,
+        })?;
         files.extend(built.files);
     }
     wrote(&files)
@@ -53,8 +58,17 @@ fn toolchains(arguments: &BuildArguments, out: &Path) -> Result<Vec<(Vec<Toolcha
 /// out with a word if all were meant.
 fn targets(arguments: &BuildArguments) -> Result<Vec<&'static Target>> {
     let is_named = |target: &Target| arguments.platforms.iter().any(|name| name == target.platform.folder);
+    let asked = TARGETS.iter().filter(|target| arguments.all_platforms || is_named(target)).collect::<Vec<_>>();
+    match workspace::find(arguments.sources.as_deref()) {
+        Err(absent) if arguments.all_platforms && arguments.sources.is_none() => {
+            say(format_args!("skipped: all platforms but this machine, for {absent}"))?;
+            return Ok(Vec::new());
+        }
+        Err(absent) if !asked.is_empty() => return Err(absent).context("the platforms named cannot be built"),
+        _ => {}
+    }
     let mut targets = Vec::new();
-    for target in TARGETS.iter().filter(|target| arguments.all_platforms || is_named(target)) {
+    for target in asked {
         let missing = target.lacks(target_libraries).join("; ");
         match (missing.as_str(), arguments.all_platforms) {
             ("", _) => targets.push(target),

@@ -14,13 +14,13 @@ use uam::Structure;
 use uam::scenarios::PICK_UP;
 
 use super::{Progress, build_files, complain, speed};
-use crate::terminal::{say, wrote};
+use crate::terminal::{remark, say, wrote};
 
 /// The csv holds every so many communication points: fine enough to plot, small enough for spreadsheets.
 const CSV_STRIDE: usize = 10;
 
 pub fn execute(out: &Path) -> Result<()> {
-    say(format_args!("Building both FMUs for {} ...", Structure::DEFAULT))?;
+    remark(format_args!("Building both FMUs for {} ...", Structure::DEFAULT))?;
     let built = build_files(&BuildOptions::new(Structure::DEFAULT, out))?;
     let pair = Pair::open(&built.controller, &built.plant)?;
 
@@ -42,7 +42,7 @@ pub fn execute(out: &Path) -> Result<()> {
     let summaries = cases.iter().map(Case::summary).collect::<Result<Vec<Summary>, _>>()?;
     say(format_args!("{}\n", study::pick_up_table(&summaries)))?;
     complain(&summaries)?;
-    say(format_args!("{}\n", speed(&runs().collect::<Vec<_>>())))?;
+    remark(format_args!("{}\n", speed(&runs().collect::<Vec<_>>())))?;
     wrote(&files)
 }
 

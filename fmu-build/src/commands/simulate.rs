@@ -6,12 +6,13 @@ use anyhow::{Result, anyhow, bail};
 use fmu_build::host::coupling::Schedule;
 use fmu_build::host::record::{Names, write_csv};
 use fmu_build::host::run::run;
+use fmu_build::study::particulars::Particulars;
 use fmu_build::study::verdict::Verdict;
 use fmu_build::{files, report};
 
 use super::{Pairs, Progress, speed};
 use crate::cli::SimulateArguments;
-use crate::terminal::{say, wrote};
+use crate::terminal::{remark, say, wrote};
 
 pub fn execute(arguments: &SimulateArguments, out: &Path) -> Result<()> {
     let mut scenario = super::scenario(&arguments.scenario)?;
@@ -35,11 +36,16 @@ pub fn execute(arguments: &SimulateArguments, out: &Path) -> Result<()> {
     let run = run?;
 
     let verdict = Verdict::of(&run)?;
-    let report = report::single::report(&run, &verdict, &schedule)?;
-    let (csv, page) = (out.join(format!("{}.csv", scenario.id)), out.join(format!("{}.html", scenario.id)));
-    let files = [write_csv(&csv, &[("", &run.recording)], 1)?, report.write(&page)?];
+    let file = |ending: &str| format!("{}.{ending}", scenario.id);
+    let particulars = Particulars::of(&run, &verdict, &schedule, &file("csv"));
+    let report = report::single::report(&run, &particulars)?;
+    let files = [
+        write_csv(&out.join(file("csv")), &[("", &run.recording)], 1)?,
+        files::write(&out.join(file("json")), particulars.to_json()?.as_bytes())?,
+        report.write(&out.join(file("html")))?,
+    ];
     say(format_args!("{verdict}\n\n{}: {}\n\n{}\n", scenario.id, scenario.title, report.table))?;
-    say(format_args!("{}\n", speed(&[&run])))?;
+    remark(format_args!("{}\n", speed(&[&run])))?;
     wrote(&files)?;
     match run.stopped {
         None if arguments.strict && !verdict.is_good() => bail!("--strict: {}", verdict.summary()),

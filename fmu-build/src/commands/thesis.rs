@@ -8,7 +8,7 @@ use uam::scenarios::of_the_thesis;
 
 use super::{Pairs, Progress, complain};
 use crate::cli::PrintArguments;
-use crate::terminal::say;
+use crate::terminal::{remark, say};
 
 pub fn execute(arguments: &PrintArguments) -> Result<()> {
     let scenarios = of_the_thesis()?;
@@ -30,5 +30,5 @@ pub fn execute(arguments: &PrintArguments) -> Result<()> {
     let outcomes = || summaries.iter().flat_map(|summary| &summary.outcomes);
     complain(&summaries)?;
     let simulated: f64 = outcomes().map(|outcome| outcome.simulated).sum();
-    say(format_args!("{} runs, {simulated:.0} s simulated in {elapsed:.1} s.", outcomes().count()))
+    remark(format_args!("{} runs, {simulated:.0} s simulated in {elapsed:.1} s.", outcomes().count()))
 }

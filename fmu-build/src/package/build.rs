@@ -1,19 +1,18 @@
-//! From the sources to `uam_controller.fmu`, `uam_plant.fmu` and `uam.ssp`.
+//! From the libraries to `uam_controller.fmu`, `uam_plant.fmu` and `uam.ssp`.
 
 use std::path::{Path, PathBuf};
 
 use uam::Structure;
 
+use crate::compile;
 use crate::compile::cross::Toolchain;
-use crate::compile::{Compiled, compile};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::files::Written;
 use crate::package::contents::fmu;
 use crate::package::description::model_description;
 use crate::package::design::Design;
 use crate::package::ssp::{Component, ssp};
 use crate::package::units::Unit;
-use crate::platform::Platform;
 use crate::{files, workspace};
 
 const SSP_NAME: &str = "uam.ssp";
@@ -25,6 +24,9 @@ pub struct BuildOptions {
     pub design: Design,
     /// What compiles the libraries, one for each platform that the FMUs are for.
     pub toolchains: Vec<Toolchain>,
+    /// A folder in the sources to compile; without one, what is not inside the program is compiled from those around
+    /// the current folder.
+    pub sources: Option<PathBuf>,
     /// Folder for the files; created if it is missing.
     pub folder: PathBuf,
 }
@@ -32,7 +34,7 @@ pub struct BuildOptions {
 impl BuildOptions {
     /// To build this, there, for this machine.
     pub fn new(design: impl Into<Design>, folder: impl Into<PathBuf>) -> Self {
-        Self { design: design.into(), toolchains: vec![Toolchain::Own], folder: folder.into() }
+        Self { design: design.into(), toolchains: vec![Toolchain::Own], sources: None, folder: folder.into() }
     }
 }
 
@@ -49,7 +51,7 @@ pub struct Built {
     pub files: [Written; 3],
 }
 
-/// Compiles both units and writes the two FMUs and the SSP.
+/// Writes the two FMUs with the libraries of both units, and the SSP.
 ///
 /// `progress` is told, line by line, what is being done.
 ///
@@ -58,19 +60,21 @@ pub struct Built {
 pub fn build(options: &BuildOptions, progress: &dyn Fn(&str)) -> Result<Built> {
     options.design.check()?;
     let [controller, plant] = Unit::pair(options.design.clone());
-    let packages = [controller.interface.identifier, plant.interface.identifier];
-    let root = workspace::root()?;
-    let compile = |toolchain: &Toolchain| Ok((toolchain.platform()?, compile(&root, &packages, *toolchain, progress)?));
-    let compiled: Vec<_> = options.toolchains.iter().map(compile).collect::<Result<_>>()?;
+    let is_compiled = |toolchain: &Toolchain| options.sources.is_some() || *toolchain != Toolchain::Own;
+    // Where the program holds no libraries, it is run from the sources that it was made of.
+    if unit_libraries::held(plant.interface.identifier).is_some() && options.toolchains.iter().any(is_compiled) {
+        check_sources(&workspace::find(options.sources.as_deref())?)?;
+    }
+    let mut libraries = [Vec::new(), Vec::new()];
+    for toolchain in &options.toolchains {
+        let platform = toolchain.platform()?;
+        let units = [controller.interface.identifier, plant.interface.identifier];
+        let made = compile::libraries(&units, *toolchain, options.sources.as_deref(), progress)?;
+        libraries.iter_mut().zip(made).for_each(|(of_unit, library)| of_unit.push((platform, library)));
+    }
 
-    let pack = |unit: &Unit| {
-        let read =
-            |(platform, compiled): &(Platform, Compiled)| Ok((*platform, compiled.library(unit.interface.identifier)?));
-        let libraries = compiled.iter().map(read).collect::<Result<Vec<_>>>()?;
-        fmu(unit, &libraries)?.to_bytes(&unit.interface.file_name())
-    };
-    let controller_fmu = pack(&controller)?;
-    let plant_fmu = pack(&plant)?;
+    let pack = |unit: &Unit, libraries: &[_]| fmu(unit, libraries)?.to_bytes(&unit.interface.file_name());
+    let [controller_fmu, plant_fmu] = [pack(&controller, &libraries[0])?, pack(&plant, &libraries[1])?];
     // The plant stands first: importers that step one component after the other must begin with it.
     let system = ssp(&[
         Component { name: "plant", interface: &plant.interface, fmu: &plant_fmu },
@@ -92,6 +96,19 @@ pub fn build(options: &BuildOptions, progress: &dyn Fn(&str)) -> Result<Built> {
     Ok(Built { controller, plant, ssp, files })
 }
 
+/// Whether units compiled from the sources have the variables that this program knows.
+fn check_sources(sources: &Path) -> Result<()> {
+    for unit in Unit::pair(Structure::DEFAULT) {
+        let file = format!("modelDescription/{}.xml", unit.interface.identifier);
+        let there = files::read(&sources.join(&file))?;
+        // Git may have changed the ends of lines.
+        if !String::from_utf8_lossy(&there).lines().eq(model_description(&unit.interface)?.lines()) {
+            return Err(Error::OtherSources { sources: sources.to_owned(), file });
+        }
+    }
+    Ok(())
+}
+
 /// Writes the model descriptions of the default structure, `uam_controller.xml` and `uam_plant.xml`.
 ///
 /// # Errors
@@ -103,4 +120,23 @@ pub fn write_descriptions(folder: &Path) -> Result<Vec<Written>> {
         files::write(&path, model_description(&unit.interface)?.as_bytes())
     };
     Unit::pair(Structure::DEFAULT).into_iter().map(write).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sources_of_another_version_are_refused() {
+        check_sources(&workspace::root().unwrap()).unwrap();
+
+        let other = tempfile::tempdir().unwrap();
+        write_descriptions(&other.path().join("modelDescription")).unwrap();
+        check_sources(other.path()).unwrap();
+        let file = other.path().join("modelDescription/uam_plant.xml");
+        let text = String::from_utf8(files::read(&file).unwrap()).unwrap();
+        files::write(&file, text.replace("joint[1]", "joint[one]").as_bytes()).unwrap();
+        let error = check_sources(other.path()).unwrap_err().to_string();
+        assert!(error.contains("uam_plant.xml") && error.contains("cargo install"), "{error}");
+    }
 }

@@ -9,7 +9,7 @@ pub const LICENSE: &str = "MIT OR Apache-2.0";
 /// Version of the units: that of the workspace.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// What wrote the files.
-pub const GENERATION_TOOL: &str = concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION"));
+pub const GENERATION_TOOL: &str = concat!("uam ", env!("CARGO_PKG_VERSION"));
 
 /// Beginning of every experiment \[s\].
 pub const START_TIME: f64 = 0.0;

@@ -37,7 +37,7 @@ pub fn report(cases: &[Case]) -> Result<Report, Error> {
     Ok(Report {
         title: "Picking up a payload from an elastic support".to_owned(),
         introduction: html! {
-            (super::verdict(&Verdict::of(pick_up[0].run)?))
+            (super::verdict(&Verdict::of(pick_up[0].run)?.sentences()))
             p {
                 "A hovering multicopter reaches down with an arm of three links, grasps "
                 (scenario.parameters.payload.mass) " kg that rest on a spring, and lifts them. The arm has one joint "
@@ -55,6 +55,10 @@ pub fn report(cases: &[Case]) -> Result<Report, Error> {
         },
         table: study::pick_up_table(&cases.iter().map(Case::summary).collect::<Result<Vec<_>, _>>()?),
         figures,
+        appendix: html! {
+            (super::made_by())
+            p { "The numbers of these curves are in " a href="pick-up.csv" { "pick-up.csv" } "." }
+        },
     })
 }
 

@@ -114,6 +114,7 @@ pub fn report(scenarios: &[Scenario], results: &[Reach], changes: &str) -> Resul
             @for remark in unfinished(scenarios) { p { (remark) "." } }
         },
         table: table(scenarios, results),
+        appendix: super::made_by(),
         figures: vec![figure],
     })
 }

@@ -1,13 +1,12 @@
 //! The report of one run of any scenario.
 
-use maud::html;
+use maud::{Markup, html};
 use uam::variables::options::Choice;
 
 use super::{Error, Report, Series, Topic, figures, style};
-use crate::host::coupling::Schedule;
 use crate::host::run::Run;
 use crate::study::claims::{self, Numbers, Quantity, Row, Table};
-use crate::study::verdict::Verdict;
+use crate::study::particulars::Particulars;
 
 /// The verdict on a run, its measured quantities, and all figures.
 ///
@@ -15,10 +14,11 @@ use crate::study::verdict::Verdict;
 ///
 /// # Errors
 /// If a figure cannot be drawn.
-pub fn report(run: &Run, verdict: &Verdict, schedule: &Schedule) -> Result<Report, Error> {
+pub fn report(run: &Run, particulars: &Particulars) -> Result<Report, Error> {
     let scenario = &run.scenario;
     let discretization = scenario.parameters.ik.discretization.name();
-    let as_in_thesis = schedule.stop() - schedule.start() == scenario.duration && schedule.step() == scenario.step;
+    let [start, stop, step] = particulars.schedule;
+    let as_in_thesis = stop - start == scenario.duration && step == scenario.step;
     let mut table = Table::new([discretization]);
     let numbers = Numbers::of(&run.recording, scenario.structure)?;
     let row = |quantity: Quantity| {
@@ -37,14 +37,52 @@ pub fn report(run: &Run, verdict: &Verdict, schedule: &Schedule) -> Result<Repor
     Ok(Report {
         title: format!("{}: {}", scenario.id, scenario.title),
         introduction: html! {
-            (super::verdict(verdict))
+            (super::verdict(&particulars.verdict))
             p {
-                "Both FMUs (" (scenario.structure) "), coupled for " (schedule.stop() - schedule.start())
-                " s in communication steps of " (schedule.step()) " s; discretization of the inverse kinematics: "
+                "Both FMUs (" (scenario.structure) "), coupled for " (stop - start)
+                " s in communication steps of " (step) " s; discretization of the inverse kinematics: "
                 code { (discretization) } "."
             }
         },
         table,
         figures,
+        appendix: appendix(particulars),
     })
+}
+
+/// What was simulated, by what, and where the numbers are.
+fn appendix(particulars: &Particulars) -> Markup {
+    let Particulars { program, date, csv, id, parameters, scenario, .. } = particulars;
+    let json = format!("{id}.json");
+    html! {
+        section {
+            h2 { "What was simulated" }
+            p {
+                "Scenario " code { (id) } ", by " (program) " on " (date) ". The numbers are in " a href=(csv) { (csv) }
+                "; their units, all parameters and the scenario in " a href=(json) { (json) } "."
+            }
+            details {
+                summary { "All parameters" }
+                div.wide {
+                    table.numbers {
+                        thead { tr { th { "parameter" } th { "value" } th { "unit" } th { "meaning" } } }
+                        tbody {
+                            @for parameter in parameters {
+                                tr {
+                                    td { code { (parameter.name) } }
+                                    td { (parameter.value) }
+                                    td { (parameter.unit) }
+                                    td { (parameter.description) }
+                                }
+                            }
+                        }
+                    }
+                }
+            }
+            details {
+                summary { "The scenario as a file for " code { "simulate" } }
+                pre { (scenario) }
+            }
+        }
+    }
 }

@@ -44,6 +44,12 @@ impl Verdict {
         Ok(Self { followed: missed.is_none() && run.stopped.is_none(), sentence, doubts: doubts::of(run)? })
     }
 
+    /// All of it, a sentence each.
+    #[must_use]
+    pub fn sentences(&self) -> Vec<String> {
+        std::iter::once(&self.sentence).chain(&self.doubts).cloned().collect()
+    }
+
     /// What speaks against the run, in a few words.
     #[must_use]
     pub fn summary(&self) -> String {

@@ -1,6 +1,7 @@
 //! First derivatives of inputs and outputs with respect to time.
 
-use super::{Instance, lookup};
+use super::Instance;
+use super::access::lookup;
 use crate::fmi::model::Model;
 use crate::fmi::v2::capabilities::Capabilities;
 use crate::fmi::v2::error::Error;
