@@ -137,7 +137,10 @@ fn a_path_may_lie_beside_its_scenario() {
         String::from_utf8([program.stdout, program.stderr].concat()).unwrap()
     };
     let missing = answer("show");
-    assert!(missing.contains("line 3: `path = \"points.csv\"`: cannot read") && missing.contains("points.csv: "), "{missing}");
+    assert!(
+        missing.contains("line 3: `path = \"points.csv\"`: cannot read") && missing.contains("points.csv: "),
+        "{missing}"
+    );
     fs::write(folder.path().join("points.csv"), "time,x,y\n0,0,0\n1,0.01,0.02\n").unwrap();
     let shown = answer("show");
     assert!(shown.contains("[1.0, 0.01, 0.02],") && shown.contains("reference.kind = \"table\""), "{shown}");
