@@ -9,6 +9,7 @@ use std::sync::Arc;
 use common::{assert_close, cases, derivative};
 use proptest::prelude::*;
 use uam::Structure;
+use uam::fmi::v2::Instance;
 use uam::fmi::{Identity, Model, start_file};
 use uam::parameters::defaults::default_parameters;
 use uam::reference::{MOST_KNOTS, PathTable, ReferenceKind};
@@ -233,6 +234,18 @@ fn a_changed_path_is_refused() {
     assert_ne!(circle.guid(), none.guid());
     assert_ne!(circle.guid(), unit.guid());
     assert!(found(&circle, &start_file::write(&circle).unwrap()).is_ok());
+}
+
+/// Within a process, states pass from one instance to another without being bytes.
+#[test]
+fn a_state_in_memory_goes_to_units_with_the_same_path_alone() {
+    let instance = |way: f64| Instance::new(unit(PathTable::new(&[[0.0, 0.0, 0.0], [1.0, way, 0.0]]).unwrap()));
+    let [mut one, mut same, mut other] = [0.01, 0.01, 0.02].map(instance);
+    let saved = one.save().unwrap();
+    assert!(one.restore(&saved).is_ok() && same.restore(&saved).is_ok() && same.write_saved(&saved).is_ok());
+    for refused in [other.restore(&saved).unwrap_err(), other.write_saved(&saved).unwrap_err()] {
+        assert_eq!(refused.to_string(), "FMUstate belongs to an instance with another path");
+    }
 }
 
 /// The longest path fits into a start file.

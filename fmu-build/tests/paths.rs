@@ -3,7 +3,9 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests may fail like tests")]
 
 use std::f64::consts::TAU;
+use std::fs;
 use std::path::Path;
+use std::process::Command;
 
 use fmu_build::host::coupling::{Pair, Schedule};
 use fmu_build::host::fmu::{Instance, Value};
@@ -122,6 +124,28 @@ fn a_state_of_a_unit_with_another_path_is_refused() {
     bare.save().unwrap();
     let refused = controller(&one).save_bytes(&bare.saved_bytes().unwrap()).unwrap_err().to_string();
     assert!(refused.contains("a state of a unit without path"), "{refused}");
+}
+
+/// Names of files in a scenario count from where it lies; what cannot hold a table is refused.
+#[test]
+fn a_path_may_lie_beside_its_scenario() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("mine.toml");
+    fs::write(&file, "id = 'mine'\nbased_on = '4.3b'\npath = 'points.csv'").unwrap();
+    let answer = |command: &str| {
+        let program = Command::new(env!("CARGO_BIN_EXE_uam")).args([command, file.to_str().unwrap()]).output().unwrap();
+        String::from_utf8([program.stdout, program.stderr].concat()).unwrap()
+    };
+    let missing = answer("show");
+    assert!(
+        missing.contains("line 3: `path = \"points.csv\"`: cannot read") && missing.contains("points.csv: "),
+        "{missing}"
+    );
+    fs::write(folder.path().join("points.csv"), "time,x,y\n0,0,0\n1,0.01,0.02\n").unwrap();
+    let shown = answer("show");
+    assert!(shown.contains("[1.0, 0.01, 0.02],") && shown.contains("reference.kind = \"table\""), "{shown}");
+    let refused = answer("export");
+    assert!(refused.contains("which no parameter set can hold"), "{refused}");
 }
 
 /// Whoever wants another kind gets it, and whoever wants a table where there is none learns what to do.

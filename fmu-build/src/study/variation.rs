@@ -91,6 +91,20 @@ mod tests {
     }
 
     #[test]
+    fn pace_and_size_change_a_table_too() {
+        let text = "id = 'a'\nbased_on = '4.3b'\npath = [[0, 0, 0], [1, 0.02, 0.01], [3, 0.01, -0.03]]";
+        let known = Scenario::read(text).unwrap();
+        let varied = vary(&known, &[(PACE, "2"), (SIZE, "0.5"), ("payload.mass", "0.1")]).unwrap();
+        for t in [0.2, 0.5, 1.1, 1.5] {
+            let [before, now] = [(&known, 2.0 * t), (&varied, t)].map(|(run, t)| run.parameters.reference.at(t));
+            assert!((0.5 * before.displacement - now.displacement).norm() < 1e-16);
+            assert!((before.velocity - now.velocity).norm() < 1e-15);
+        }
+        let refused = vary(&known, &[(SIZE, "1e308"), (SIZE, "1e308")]).unwrap_err().to_string();
+        assert!(refused.starts_with("`size`: row 2: x must be a finite number"), "{refused}");
+    }
+
+    #[test]
     fn one_change_may_be_for_every_joint() {
         let varied = vary(&find("4.4b").unwrap(), &[("joint[*].acceleration_limit", "6")]).unwrap();
         assert!(varied.parameters.joints[..3].iter().all(|joint| joint.acceleration_limit == 6.0));

@@ -35,7 +35,8 @@ pub(super) fn timed(waypoints: &[[f64; 2]], speed: f64) -> Result<Vec<[f64; 5]>,
             i if i == last => (leg.duration, 0.0),
             i => passing(&leg, ways[i] / length),
         };
-        let velocity = direction * (rate * length);
+        // Not minus 0, which would look odd in a file.
+        let velocity = if rate > 0.0 { direction * (rate * length) } else { Vec2::zeros() };
         [time, point.x, point.y, velocity.x, velocity.y]
     };
     Ok(points.iter().zip(directions(&points, &ways)).enumerate().map(row).collect())

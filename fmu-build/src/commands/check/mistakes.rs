@@ -195,7 +195,8 @@ fn path(obstacle: &Obstacle) -> Sentence {
             change: factor.map_or_else(
                 || "\"joint[...].start\" first: the path begins out of reach, or nearly so.".to_owned(),
                 |factor| format!(
-                    "reference.leg[*].dx and .dy (or reference.circle.diameter) to {factor:.2} of what they are, or longer links."
+                    "reference.leg[*].dx and .dy (or reference.circle.diameter, or the places in path) to {factor:.2} of what \
+                     they are, or longer links."
                 ),
             ),
         },
