@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, anyhow};
 use fmu_build::host::coupling::{self, Pair};
 use fmu_build::host::run::Run;
 use fmu_build::study::Summary;
@@ -59,7 +59,8 @@ pub fn execute(arguments: &Arguments) -> Result<()> {
 fn scenario(name_or_file: &str) -> Result<Scenario> {
     let is_file = Path::new(name_or_file).extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"));
     if !is_file {
-        return scenarios::find(name_or_file).context("`list` shows all scenarios; a file of your own ends in .toml");
+        return scenarios::find(name_or_file)
+            .map_err(|error| anyhow!("{error} (`list` shows all scenarios; a file of your own ends in .toml)"));
     }
     let text = std::fs::read_to_string(name_or_file).with_context(|| format!("cannot read {name_or_file}"))?;
     // The names of other files in it count from where it lies itself.

@@ -21,6 +21,7 @@ use crate::host::coupling::{Error, Pair, Schedule};
 use crate::host::record::{Names, NotRecorded};
 use crate::host::run::{Run, run};
 use claims::{Claim, DISCRETIZATIONS, Numbers, Quantity, Row, Table};
+use verdict::Verdict;
 
 /// Runs a scenario at its own step with a discretization. `progress` hears of every communication point.
 ///
@@ -88,6 +89,8 @@ pub struct Outcome {
     pub numbers: Numbers,
     /// Why the run stopped early, if it did.
     pub complaint: Option<String>,
+    /// What became of it.
+    pub verdict: Verdict,
     /// Time that was simulated \[s\].
     pub simulated: f64,
     /// Time that it took.
@@ -103,6 +106,7 @@ impl Outcome {
         Ok(Self {
             numbers: Numbers::of(&run.recording, run.scenario.structure)?,
             complaint: run.complaint(),
+            verdict: Verdict::of(run)?,
             simulated: run.simulated(),
             elapsed: run.elapsed,
         })

@@ -4,12 +4,9 @@ use std::path::Path;
 
 use anyhow::{Result, bail};
 use clap::Args;
-use fmu_build::study::check::{Finding, Inherited, check};
+use fmu_build::study::check::{Finding, Inherited, check, facts, mistakes};
 
 use crate::terminal::say;
-
-mod facts;
-mod mistakes;
 
 /// Which simulation to look at.
 #[derive(Debug, Args)]
@@ -34,6 +31,9 @@ pub fn execute(name_or_file: &str) -> Result<()> {
     for (i, finding) in report.findings.iter().enumerate() {
         let mistakes::Sentence { what, change } = mistakes::sentence(finding, &scenario, &report);
         say(format_args!("{}. {what}\n   Change: {change}\n", i + 1))?;
+    }
+    if report.findings.iter().any(|finding| matches!(finding, Finding::Degrees(_))) {
+        say("What follows takes these angles for degrees.\n")?;
     }
     facts::sentences(&scenario, &report).iter().try_for_each(say)?;
     if number > 0 {

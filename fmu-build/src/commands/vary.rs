@@ -13,6 +13,10 @@ use crate::terminal::say;
 
 pub fn execute(arguments: &VaryArguments) -> Result<()> {
     let scenario = super::scenario(&arguments.scenario)?;
+    ensure!(
+        arguments.changes.iter().all(|change| change.name != "ik.discretization"),
+        "ik.discretization cannot be varied: each variant runs with both, in a block of its own"
+    );
     let variants = variants(arguments)?;
     let claims: Vec<&Claim> = claims::about(&scenario.id).collect();
     // Those with which claims compare are changed alike.
@@ -59,9 +63,22 @@ pub fn execute(arguments: &VaryArguments) -> Result<()> {
     if arguments.print.markdown {
         say(table.markdown().trim_end())?
     } else {
-        say(table)?
+        say(table)?;
+        for ((label, _), summaries) in variants.iter().zip(&columns) {
+            warn(label, &summaries[0])?;
+        }
     }
     complain(&summaries)
+}
+
+/// Says of which runs the numbers mean little, since the path was not followed.
+fn warn(label: &str, summary: &Summary) -> Result<()> {
+    for (outcome, discretization) in summary.outcomes.iter().zip(DISCRETIZATIONS) {
+        if !outcome.verdict.followed {
+            say(format_args!("{label}, {}: {}", discretization.name(), outcome.verdict.sentence))?;
+        }
+    }
+    Ok(())
 }
 
 /// A heading, and names with their values.

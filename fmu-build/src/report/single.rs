@@ -1,6 +1,7 @@
 //! The report of one run of any scenario.
 
 use maud::{Markup, html};
+use uam::scenarios::{self, Scenario};
 use uam::variables::options::Choice;
 
 use super::{Error, Report, Series, Topic, figures, style};
@@ -10,7 +11,7 @@ use crate::study::particulars::Particulars;
 
 /// The verdict on a run, its measured quantities, and all figures.
 ///
-/// What the thesis says is left out unless the run has the length and the step of the thesis.
+/// What the thesis says is left out unless the run is of the thesis, with its length and step.
 ///
 /// # Errors
 /// If a figure cannot be drawn.
@@ -18,7 +19,7 @@ pub fn report(run: &Run, particulars: &Particulars) -> Result<Report, Error> {
     let scenario = &run.scenario;
     let discretization = scenario.parameters.ik.discretization.name();
     let [start, stop, step] = particulars.schedule;
-    let as_in_thesis = stop - start == scenario.duration && step == scenario.step;
+    let as_in_thesis = stop - start == scenario.duration && step == scenario.step && is_of_the_catalogue(scenario);
     let mut table = Table::new([discretization]);
     let numbers = Numbers::of(&run.recording, scenario.structure)?;
     let row = |quantity: Quantity| {
@@ -47,6 +48,14 @@ pub fn report(run: &Run, particulars: &Particulars) -> Result<Report, Error> {
         table,
         figures,
         appendix: appendix(particulars),
+    })
+}
+
+/// Whether a scenario is that of the catalogue with its name, whatever the discretization: what the thesis says is about no other.
+fn is_of_the_catalogue(scenario: &Scenario) -> bool {
+    scenarios::find(&scenario.id).is_ok_and(|mut known| {
+        known.parameters.ik.discretization = scenario.parameters.ik.discretization;
+        known == *scenario
     })
 }
 

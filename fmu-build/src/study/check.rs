@@ -1,18 +1,21 @@
 //! What can be said of a simulation before it runs, and what in it looks like a mistake.
 //!
 //! Only the vehicle at its start, its gains and the wanted path are looked at; nothing is integrated. The numbers are in
-//! [`Report`], what looks wrong is in its list of [`Finding`]s, each with a value to set instead. Sentences are made
-//! elsewhere.
+//! [`Report`], what looks wrong is in its list of [`Finding`]s, each with a value to set instead. [`mistakes`] and [`facts`] say
+//! both in sentences.
 
 pub mod arm;
 pub mod balance;
+pub mod facts;
 pub mod hover;
 pub mod inputs;
+pub mod mistakes;
 pub mod path;
 pub mod payload;
 pub mod statics;
 
 use uam::parameters::{Parameters, Resolution};
+use uam::reference::ReferenceKind;
 use uam::scenarios::Scenario;
 
 pub use arm::Bend;
@@ -43,6 +46,8 @@ pub enum Finding {
         /// The nearest value within the stops.
         nearest: f64,
     },
+    /// A table of the path that nobody follows, since `reference.kind` names something else.
+    TableIgnored(ReferenceKind),
     /// Values that have to come from outside, while nobody gives any.
     NeedsInput(Source),
     /// Numbers of the thesis' pick-up in a vehicle that is not the thesis'.

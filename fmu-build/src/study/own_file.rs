@@ -59,7 +59,8 @@ id = \"{id}\"
 title = \"{title}\"
 duration = {duration:?} # of the simulation [s]
 step = {step:?} # between two communication points [s]
-# path = \"path.csv\" # a table beside this file: time,x,y or time,x,y,vx,vy [s, m, m/s], named so in its first line
+# path = \"path.csv\" # instead of the legs below, a file beside this one: time,x,y or time,x,y,vx,vy [s, m, m/s], named so in its
+# first line. The hand starts at the first row, wherever that is, and runs smoothly through all.
 
 [structure]
 links = {links} # revolute, 1 to 6

@@ -89,8 +89,8 @@ fn path_errors(run: &Run) -> Result<Vec<f64>, NotRecorded> {
 fn followed(run: &Run, errors: &[f64]) -> Result<String, NotRecorded> {
     let measured = |quantity: Quantity| Ok(quantity.show(quantity.measure(&run.recording)?));
     Ok(format!(
-        "The path was followed: the end effector stays within {} of its reference for {} s; the UAV rolls by {} at most, and \
-         moves by {} along x and {} along y.",
+        "The path was followed: the end effector stays within {} of its reference for {} s; the UAV rolls by {} at most, \
+         and is never farther than {} along x and {} along y from where it began.",
         distance(peak(errors.iter().copied())),
         number(run.simulated()),
         measured(Quantity::Roll)?,
@@ -172,8 +172,8 @@ fn why(status: Status) -> &'static str {
             "an error or a jump of the reference is made good at a bounded speed (ik.status says catching_up)"
         }
         Status::Inexact => {
-            "the interval between two plans is too long for the motion in it, or the discretization is euler, which makes \
-             nothing good (ik.status says inexact)"
+            "the interval between two plans is too long for the motion in it, or the discretization is euler, which \
+             corrects no error (ik.status says inexact)"
         }
     }
 }

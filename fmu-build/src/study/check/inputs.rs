@@ -52,6 +52,9 @@ pub fn findings(structure: Structure, parameters: &Parameters) -> Vec<Finding> {
     findings.extend(degrees(structure, parameters).into_iter().map(Finding::Degrees));
     let stops = ignored_stops(structure, parameters);
     findings.extend((!stops.is_empty()).then_some(Finding::StopsIgnored(stops)));
+    let kind = parameters.reference.kind;
+    let ignored = parameters.reference.table.is_some() && kind != ReferenceKind::Table;
+    findings.extend(ignored.then_some(Finding::TableIgnored(kind)));
     let reference = parameters.reference.kind == ReferenceKind::External;
     findings.extend(reference.then_some(Finding::NeedsInput(Source::Reference)));
     let autopilot = parameters.autopilot.mode == AutopilotMode::External;
@@ -63,6 +66,12 @@ fn degrees(structure: Structure, parameters: &Parameters) -> Vec<Degrees> {
     let joints = parameters.joints[..structure.links].iter().enumerate();
     let mut angles: Vec<(String, f64)> =
         joints.map(|(i, joint)| (format!("joint[{}].start", i + 1), joint.start)).collect();
+    let known = default_parameters(structure);
+    for (i, (joint, known)) in parameters.joints[..structure.links].iter().zip(&known.joints).enumerate() {
+        let stops = [("lower", joint.lower, known.lower), ("upper", joint.upper, known.upper)];
+        let given = stops.into_iter().filter(|(_, stop, known)| stop != known);
+        angles.extend(given.map(|(end, stop, _)| (format!("joint[{}].{end}", i + 1), stop)));
+    }
     if structure.balance == Balance::Element {
         angles.push(("balance_element.start".to_owned(), parameters.balance_element.start));
     }

@@ -1,14 +1,16 @@
 //! What looks wrong in a run, whether or not the path was followed.
 
-use std::f64::consts::{FRAC_PI_4, TAU};
+use std::f64::consts::FRAC_PI_4;
 
-use uam::autopilot::AutopilotMode;
 use uam::parameters::Actuation;
 use uam::reference::ReferenceKind;
 
 use super::number;
 use crate::host::record::NotRecorded;
 use crate::host::run::Run;
+use crate::study::check::mistakes::{Sentence, sentence};
+use crate::study::check::{Finding, check};
+use crate::study::claims::Quantity;
 
 /// Beyond this roll a multicopter does not hover any more \[rad\].
 const STEEP: f64 = FRAC_PI_4;
@@ -16,88 +18,55 @@ const STEEP: f64 = FRAC_PI_4;
 /// A hovering UAV that is farther than this from where it began is not held there \[m\].
 const FAR: f64 = 1.0;
 
-/// A support that pushes with more than this many times the payload's weight does not carry it, but throws it up.
-const PUSH: f64 = 2.0;
+/// One that is faster than this along x in the last second has not come to rest \[m/s\].
+const RESTLESS: f64 = 0.02;
 
-/// A sentence for each thing that looks wrong, the gravest first.
+/// Communication points are sums of many steps.
+const ROUNDING: f64 = 1e-9;
+
+/// A sentence for each thing that looks wrong: what could be known beforehand, then what happened.
 pub(super) fn of(run: &Run) -> Result<Vec<String>, NotRecorded> {
-    let mut doubts = undriven(run);
-    doubts.extend(degrees(run));
-    doubts.extend(support(run)?);
+    let mut doubts = foreseen(run);
+    doubts.extend(free_joints(run));
+    doubts.extend(cut_short(run));
     doubts.extend(flight(run)?);
     Ok(doubts)
 }
 
-/// Inputs that a scenario expects somebody to drive: here nobody does.
-fn undriven(run: &Run) -> Vec<String> {
-    let (structure, parameters) = (run.scenario.structure, &run.scenario.parameters);
-    let mut doubts = Vec::new();
-    if parameters.autopilot.mode == AutopilotMode::External {
-        doubts.push(
-            "Nobody flies the UAV: autopilot.mode is external, and the inputs autopilot.thrust_command and .torque_command \
-             stay 0. Choose pid or ideal, or couple an autopilot to the plant in a host."
-                .to_owned(),
-        );
+/// What looks wrong before anything moves, as `check` says it.
+fn foreseen(run: &Run) -> Vec<String> {
+    let mut report = match check(&run.scenario) {
+        Ok(report) => report,
+        Err(error) => return vec![error.to_string()],
+    };
+    // What a vehicle has from the thesis' pick-up is no fault in itself: whoever has asked for it knows. What it does is said.
+    report.findings.retain(|finding| !matches!(finding, Finding::Inherited(_)));
+    // Beside angles in degrees, all else is about what was meant and not about what was run.
+    if report.findings.iter().any(|finding| matches!(finding, Finding::Degrees(_))) {
+        report.findings.retain(|finding| matches!(finding, Finding::Degrees(_)));
     }
-    if parameters.reference.kind == ReferenceKind::External {
-        doubts.push(
-            "Nobody gives a path: reference.kind is external, and the inputs external_reference.* stay 0. Choose path or \
-             circle, or drive them in a host."
-                .to_owned(),
-        );
-    }
-    for (i, joint) in parameters.joints.iter().enumerate().take(structure.links) {
-        if joint.actuation == Actuation::Torque {
-            let n = i + 1;
-            doubts.push(format!(
-                "Joint {n} turns freely: joint[{n}].actuation is torque, and the input joint[{n}].torque_command stays 0."
-            ));
-        }
-    }
-    doubts
+    let spoken = report.findings.iter().map(|finding| sentence(finding, &run.scenario, &report));
+    spoken.map(|Sentence { what, change }| format!("{what} Change: {change}")).collect()
 }
 
-/// Angles that look like degrees.
-fn degrees(run: &Run) -> Vec<String> {
-    let (structure, parameters) = (run.scenario.structure, &run.scenario.parameters);
-    let joints = parameters.joints.iter().enumerate().take(structure.links);
+/// Joints whose torque nobody gives.
+fn free_joints(run: &Run) -> Vec<String> {
+    let joints = (1..).zip(&run.scenario.parameters.joints).take(run.scenario.structure.links);
     joints
-        .filter(|(_, joint)| joint.start.abs() > TAU)
-        .map(|(i, joint)| {
-            let (n, start) = (i + 1, joint.start);
-            format!(
-                "Joint {n} starts at {start} rad, more than a full turn. If these are degrees: joint[{n}].start = {:.6}.",
-                start.to_radians()
-            )
+        .filter(|(_, joint)| joint.actuation == Actuation::Torque)
+        .map(|(n, _)| {
+            format!("Joint {n} turns freely: joint[{n}].actuation is torque, and the input joint[{n}].torque_command stays 0.")
         })
         .collect()
 }
 
-/// A payload that is grasped where the support does not carry it.
-fn support(run: &Run) -> Result<Option<String>, NotRecorded> {
-    let (payload, support) = (&run.scenario.parameters.payload, &run.scenario.parameters.support);
-    let weight = payload.mass * run.scenario.parameters.gravity;
-    if weight == 0.0 || support.stiffness == 0.0 {
-        return Ok(None);
-    }
-    let attached = run.recording.column("payload.attached")?;
-    let Some(grasp) = attached.iter().position(|attached| *attached != 0.0).filter(|grasp| *grasp > 0) else {
-        return Ok(None);
-    };
-    let force = run.recording.column("support.force")?[grasp];
-    let time = number(run.recording.times()[grasp]);
-    let says = if force > PUSH * weight {
-        format!("the support pushes it up with {} N", number(force))
-    } else if force == 0.0 {
-        "the support is below it and carries nothing".to_owned()
-    } else {
-        return Ok(None);
-    };
-    Ok(Some(format!(
-        "At {time} s a payload of {} N is grasped while {says}: support.height does not go together with where the hand \
-         grasps. For a vehicle without payload set payload.mass and support.stiffness to 0.",
-        number(weight)
-    )))
+/// A path that goes on when the run ends.
+fn cut_short(run: &Run) -> Option<String> {
+    let reference = &run.scenario.parameters.reference;
+    let (end, simulated) = (reference.end(), run.simulated());
+    let goes_on = reference.kind != ReferenceKind::External && end > simulated * (1.0 + ROUNDING);
+    goes_on
+        .then(|| format!("The run ends after {} s, while the path goes on until {} s.", number(simulated), number(end)))
 }
 
 /// What no hovering multicopter does.
@@ -127,6 +96,14 @@ fn flight(run: &Run) -> Result<Vec<String>, NotRecorded> {
         doubts.push(format!(
             "The UAV drifts away sideways: it is {FAR} m from where it began at {time} s. Nothing holds it there: the autopilot \
              knows altitude and roll only, so what the arm does must leave no lasting moment.",
+        ));
+    }
+    let speed = Quantity::DriftSpeed.measure(recording)?;
+    if speed > RESTLESS {
+        doubts.push(format!(
+            "The UAV has not come to rest along x: in the last second it moves by {} m/s. A longer run (--stop) shows whether it \
+             drifts, or swings more and more under the hand that it holds still.",
+            number(speed)
         ));
     }
     Ok(doubts)

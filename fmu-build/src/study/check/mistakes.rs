@@ -1,8 +1,8 @@
 //! What looks wrong, in sentences, and what to change.
 
-use fmu_build::study::check::hover::{Control, Remedy};
-use fmu_build::study::check::{Bend, Degrees, Finding, Inherited, Instability, Obstacle, Report, Source, Trap};
-use fmu_build::study::own_vehicle::three_digits;
+use crate::study::check::hover::{Control, Remedy};
+use crate::study::check::{Bend, Degrees, Finding, Inherited, Instability, Obstacle, Report, Source, Trap};
+use crate::study::own_vehicle::three_digits;
 use uam::autopilot::Gains;
 use uam::scenarios::Scenario;
 use uam::variables::options::Choice;
@@ -29,6 +29,13 @@ pub fn sentence(finding: &Finding, scenario: &Scenario, report: &Report) -> Sent
                 "The start {name} = {found} is beyond the stop at {nearest}: the first thing it does is to come back."
             ),
             change: format!("{} = {nearest:?} or further inside, or the stop.", quoted(name)),
+        },
+        Finding::TableIgnored(kind) => Sentence {
+            what: format!(
+                "`path` gives a table, but nobody follows it: reference.kind = \"{}\" says otherwise.",
+                kind.name()
+            ),
+            change: "reference.kind = \"table\", or leave that line out.".to_owned(),
         },
         Finding::NeedsInput(source) => needs_input(*source),
         Finding::Inherited(inherited) => inherits(*inherited),
@@ -84,16 +91,13 @@ fn singular(bend: &Bend) -> Sentence {
 
 fn in_degrees(Degrees { name, found, radians }: &Degrees) -> Sentence {
     Sentence {
-        what: format!(
-            "{name} = {found} is more than a turn: angles are in radians, this looks like degrees, \
-             and is taken for degrees in what follows."
-        ),
+        what: format!("{name} = {found} is more than a turn: angles are in radians, this looks like degrees."),
         change: format!("{} = {radians:.4}, or \"{found} deg\", if degrees are meant.", quoted(name)),
     }
 }
 
 fn stops(joints: &[usize], scenario: &Scenario) -> Sentence {
-    let names: Vec<String> = joints.iter().map(|n| format!("joint[{n}].lower and .upper")).collect();
+    let names: Vec<String> = joints.iter().map(|n| format!("joint[{n}].lower or .upper")).collect();
     let method = scenario.parameters.ik.resolution.name();
     Sentence {
         what: format!("{} are given, but the resolution {method} knows no stops: joints pass them.", names.join(", ")),

@@ -1,8 +1,8 @@
 //! The numbers behind the verdict, in sentences.
 
-use fmu_build::study::check::hover::Mode;
-use fmu_build::study::check::{Demand, Drift, Imbalance, Report};
-use fmu_build::study::own_vehicle::three_digits;
+use crate::study::check::hover::Mode;
+use crate::study::check::{Demand, Drift, Imbalance, Report};
+use crate::study::own_vehicle::three_digits;
 use uam::autopilot::AutopilotMode;
 use uam::parameters::Resolution;
 use uam::scenarios::Scenario;
