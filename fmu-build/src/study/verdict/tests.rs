@@ -21,17 +21,17 @@ const COLUMNS: [&str; 9] = [
     "ik.status",
 ];
 
-/// A hover of one second; `change` may set a value of a row.
+/// A hover of 20 seconds; `change` may set a value at a share of that time.
 fn run(scenario: Scenario, change: impl Fn(&str, f64) -> Option<f64>) -> Run {
     let mut recording = Recording::new(COLUMNS, 11);
     for n in 0..=10 {
-        let time = f64::from(n) / 10.0;
+        let share = f64::from(n) / 10.0;
         let usual = |name: &str| match name {
             "autopilot.thrust" => 50.0,
             "ik.status" => 1.0,
             _ => 0.0,
         };
-        recording.push(time, COLUMNS.map(|name| change(name, time).unwrap_or_else(|| usual(name))));
+        recording.push(20.0 * share, COLUMNS.map(|name| change(name, share).unwrap_or_else(|| usual(name))));
     }
     Run { scenario, recording, stopped: None, elapsed: Duration::ZERO }
 }
@@ -46,45 +46,45 @@ fn number_of(status: Status) -> f64 {
 
 #[test]
 fn a_path_that_is_followed_is_said_to_be_so_with_how_well() {
-    let verdict = verdict(|name, time| (name == "end_effector.x").then_some(3e-5 * time));
+    let verdict = verdict(|name, share| (name == "end_effector.x").then_some(3e-5 * share));
     assert!(verdict.is_good(), "{verdict}");
-    assert!(verdict.sentence.contains("within 3.0e-5 m of its reference for 1.00 s"), "{verdict}");
+    assert!(verdict.sentence.contains("within 3.0e-5 m of its reference for 20.0 s"), "{verdict}");
 }
 
 #[test]
 fn a_path_that_is_lost_is_said_to_be_so_from_when_on_and_why() {
-    let verdict = verdict(|name, time| match name {
-        "end_effector.y" if time > 0.55 => Some(-0.02 * time),
-        "ik.status" if time > 0.45 => Some(number_of(Status::RateLimited)),
+    let verdict = verdict(|name, share| match name {
+        "end_effector.y" if share > 0.55 => Some(-0.02 * share),
+        "ik.status" if share > 0.45 => Some(number_of(Status::RateLimited)),
         _ => None,
     });
     assert!(!verdict.followed && verdict.doubts.is_empty());
     assert_eq!(
         verdict.sentence,
-        "The path was NOT followed from 0.600 s on: rates are at their limits (ik.status says rate_limited). The end effector \
+        "The path was NOT followed from 12.0 s on: rates are at their limits (ik.status says rate_limited). The end effector \
          is off its reference by 20.0 mm at most, and by 20.0 mm at the end."
     );
 }
 
 #[test]
 fn a_path_that_is_met_again_is_missed_for_a_while() {
-    let verdict = verdict(|name, time| (name == "end_effector.x" && (0.25..0.45).contains(&time)).then_some(0.1));
-    assert!(verdict.sentence.contains("between 0.300 and 0.500 s: the controller foresaw nothing of it"), "{verdict}");
+    let verdict = verdict(|name, share| (name == "end_effector.x" && (0.25..0.45).contains(&share)).then_some(0.1));
+    assert!(verdict.sentence.contains("between 6.00 and 10.0 s: the controller foresaw nothing of it"), "{verdict}");
     assert!(verdict.sentence.ends_with("by 1e-9 m at the end."), "{verdict}");
 }
 
 /// A number that is none is not near anything.
 #[test]
 fn what_is_no_number_was_not_followed() {
-    assert!(!verdict(|name, time| (name == "end_effector.x" && time > 0.95).then_some(f64::NAN)).followed);
+    assert!(!verdict(|name, share| (name == "end_effector.x" && share > 0.95).then_some(f64::NAN)).followed);
 }
 
 /// The status of a row is about the interval after it: that of the row itself comes too late.
 #[test]
 fn the_reason_is_what_was_planned_before() {
-    let verdict = verdict(|name, time| match name {
-        "end_effector.x" if time > 0.55 => Some(0.1),
-        "ik.status" if time > 0.55 => Some(number_of(Status::CatchingUp)),
+    let verdict = verdict(|name, share| match name {
+        "end_effector.x" if share > 0.55 => Some(0.1),
+        "ik.status" if share > 0.55 => Some(number_of(Status::CatchingUp)),
         _ => None,
     });
     assert!(verdict.sentence.contains("foresaw nothing"), "{verdict}");
@@ -105,16 +105,30 @@ fn every_status_that_gives_up_the_path_has_a_reason_that_names_it() {
 #[test]
 fn what_looks_wrong_is_said() {
     let flight: [(&str, f64, &str); 4] = [
-        ("autopilot.thrust", -1e-3, "The thrust falls below zero at 0.600 s"),
-        ("base.roll", -0.8, "rolls beyond 45 degrees at 0.600 s"),
-        ("base.y", -1200.0, "1 m from where it began at 0.600 s, and 1200.0 m below it"),
+        ("autopilot.thrust", -1e-3, "The thrust falls below zero at 12.0 s"),
+        ("base.roll", -0.8, "rolls beyond 45 degrees at 12.0 s"),
+        ("base.y", -1200.0, "1 m from where it began at 12.0 s, and 1200.0 m below it"),
         ("base.x", 1.1, "drifts away sideways"),
     ];
     for (wrong, value, expected) in flight {
-        let verdict = verdict(|name, time| (name == wrong && time > 0.55).then_some(value));
+        let verdict = verdict(|name, share| (name == wrong && share > 0.55).then_some(value));
         let said = verdict.doubts.join("\n");
         assert!(verdict.doubts.len() == 1 && said.contains(expected), "{said}");
     }
+}
+
+/// A swing of the UAV that goes on, and a path that does.
+#[test]
+fn what_has_not_come_to_its_end_is_said() {
+    let swings = verdict(|name, share| (name == "base.x" && share > 0.95).then_some(0.1));
+    assert!(swings.doubts.len() == 1 && swings.doubts[0].contains("not come to rest along x"), "{swings}");
+    let mut longer = find("pick-up").unwrap();
+    longer.parameters.reference.legs[2].start = 12.0;
+    let doubts = Verdict::of(&run(longer, |_, _| None)).unwrap().doubts;
+    assert!(
+        doubts.iter().any(|doubt| doubt == "The run ends after 20.0 s, while the path goes on until 21.0 s."),
+        "{doubts:?}"
+    );
 }
 
 fn doubts(change: impl FnOnce(&mut Scenario)) -> Vec<String> {
