@@ -24,6 +24,15 @@ pub fn execute(arguments: &PrintArguments) -> Result<()> {
     if arguments.markdown {
         return say(table.markdown_with_remarks().trim_end());
     }
+    let counts = table.columns.iter().zip(table.agreement_by_column());
+    let counts: Vec<String> =
+        counts.map(|(name, (all, agreeing))| format!("{agreeing} of {all} with {name}")).collect();
+    say(format_args!(
+        "Statements of the thesis that agree with what came out: {}. euler is the thesis' own step.\n\
+         ✓: the number is what the statement says, or within what it leaves open; ✗: it is not, for the reasons below the table.\n\
+         (kind): the statement is about the kind of motion, not about a number. No mark: both numbers are nothing but rounding.\n",
+        counts.join(", ")
+    ))?;
     let (statements, agreeing) = table.agreement();
     say(format_args!("{table}\n\n{agreeing} of {statements} numbers agree with the thesis."))?;
     table.remarks().try_for_each(|remark| say(format_args!("  ✗ {remark}")))?;

@@ -112,6 +112,16 @@ impl Table {
         (verdicts.len(), verdicts.iter().filter(|&&agrees| agrees).count())
     }
 
+    /// The same for each column.
+    #[must_use]
+    pub fn agreement_by_column(&self) -> Vec<(usize, usize)> {
+        let of_column = |column: usize| {
+            let cells = self.rows().filter_map(|row| row.cells.get(column)?.agrees);
+            cells.fold((0, 0), |(all, agreeing), agrees| (all + 1, agreeing + usize::from(agrees)))
+        };
+        (0..self.columns.len()).map(of_column).collect()
+    }
+
     /// Why numbers do not agree, by the first word of the scenario's title.
     pub fn remarks(&self) -> impl Iterator<Item = String> {
         self.sections.iter().flat_map(|section| {
